@@ -1,0 +1,28 @@
+"""What can go wrong in the core, drawn as one tree."""
+
+from __future__ import annotations
+
+
+class EmogenError(Exception):
+    """Base of every error that this package raises on purpose."""
+
+
+class InvalidInputError(EmogenError, ValueError):
+    """An argument is not what the function needs; the message says what was expected and what was got."""
+
+
+class RigFileError(EmogenError):
+    """A rig or look file is damaged, foreign or of another version."""
+
+
+class RenderingError(EmogenError):
+    """A face could not be drawn."""
+
+
+class MissingGLError(RenderingError):
+    """This machine offers no OpenGL; the message is one sentence with what to install."""
+
+
+def expected(what: str, got: object) -> str:
+    """Return the sentence that every message of this package uses for bad input."""
+    return f"expected {what}, got {got!r}"

@@ -1,0 +1,1 @@
+"""Drawing faces: arrays in, pictures out. Only `pyrender_backend` touches OpenGL."""
