@@ -1,0 +1,146 @@
+"""What a study fixes about the search, with the paper's defaults (EmoGen 2021, sections III-B and III-C)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from emogen_core.errors import InvalidInputError, expected
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from emogen_core.face.rig import Rig
+
+POPULATION = 10
+BLENDS = 3
+"""Slots 1 to 3: the elite and the two averages."""
+INITIAL_EMOTIONS = ("happy", "sad", "angry", "fearful")
+
+Genome = tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class FaceSet:
+    """A named set of genes from which a face of the initial population draws its active ones."""
+
+    name: str
+    genes: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class SearchParams:
+    """The search space and the options of the algorithm.
+
+    Attributes:
+        gene_count: G, length of a genome.
+        active: indices of the genes that the search may move; all others stay 0.
+        initial_sets: gene sets of the protocol initialisation.
+        generations: G of the paper; the trial ends with the elite of this generation.
+        minimum, maximum: how many faces a choice may hold.
+        mutations: m, gene indices drawn a bred face.
+        random_genes: x, genes drawn a random face.
+        random_faces: how many of the last slots are random.
+        activation: least and most active genes of a face of the initial population.
+        initialisation: "protocol", or "fixed": `fixed_population` as it stands.
+        reset: a reset keeps the initial population, redraws it, or is not offered.
+        fixed_population: ten genomes, only with "fixed".
+    """
+
+    gene_count: int
+    active: tuple[int, ...]
+    initial_sets: tuple[FaceSet, ...]
+    generations: int = 10
+    minimum: int = 1
+    maximum: int = POPULATION
+    mutations: int = 2
+    random_genes: int = 6
+    random_faces: int = 4
+    activation: tuple[int, int] = (3, 8)
+    initialisation: Literal["protocol", "fixed"] = "protocol"
+    reset: Literal["keep", "redraw", "off"] = "keep"
+    fixed_population: tuple[Genome, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Refuse settings that the algorithm cannot run with."""
+        genes = range(self.gene_count)
+        fixed = np.array(self.fixed_population, float) if self.fixed_population else None
+        checks = (
+            (
+                "active",
+                bool(self.active) and all(i in genes for i in self.active),
+                "gene indices",
+                self.active,
+            ),
+            ("initial_sets", all(s.genes for s in self.initial_sets), "sets with genes", self.initial_sets),
+            ("initial_sets", bool(self.initial_sets) or fixed is not None, "at least one set", ()),
+            ("generations", self.generations >= 1, "at least 1", self.generations),
+            ("minimum", 1 <= self.minimum <= self.maximum, "1 up to the maximum", self.minimum),
+            ("maximum", self.maximum <= POPULATION, f"at most {POPULATION}", self.maximum),
+            ("mutations", self.mutations >= 0, "0 or more", self.mutations),
+            (
+                "random_genes",
+                1 <= self.random_genes <= len(self.active),
+                "1 up to the genes",
+                self.random_genes,
+            ),
+            ("random_faces", 0 <= self.random_faces <= POPULATION - BLENDS, "0 to 7", self.random_faces),
+            (
+                "activation",
+                1 <= self.activation[0] <= self.activation[1],
+                "1 <= least <= most",
+                self.activation,
+            ),
+            (
+                "fixed_population",
+                (fixed is None) == (self.initialisation == "protocol") and self._is_population(fixed),
+                f"{POPULATION} genomes of {self.gene_count} values in [0, 1) with fixed initialisation only",
+                None if fixed is None else fixed.shape,
+            ),
+        )
+        for name, holds, want, got in checks:
+            if not holds:
+                raise InvalidInputError(f"{name}: {expected(want, got)}")
+
+    def _is_population(self, fixed: np.ndarray | None) -> bool:
+        if fixed is None:
+            return True
+        return fixed.shape == (POPULATION, self.gene_count) and bool(((fixed >= 0) & (fixed < 1)).all())
+
+
+def search_params(
+    rig: Rig,
+    *,
+    gaze: bool = True,
+    lids: bool = True,
+    lateral: bool = False,
+    excluded: Collection[str] = (),
+    **options: object,
+) -> SearchParams:
+    """Return the search over a rig's genes.
+
+    Args:
+        rig: the face model.
+        gaze, lids: whether genes that turn the eyes, or close them, take part.
+        lateral: whether genes that move the face sideways take part.
+        excluded: names of further genes to leave out.
+        **options: fields of `SearchParams`.
+
+    Raises:
+        InvalidInputError: an unknown gene, or settings that the algorithm cannot run with.
+    """
+    rig.gene_indices(tuple(excluded))
+    off = {flag for flag, on in (("gaze", gaze), ("lids", lids), ("lateral", lateral)) if not on} | {"disabled"}
+    active = tuple(
+        i for i, gene in enumerate(rig.genes) if not gene.flags & off and gene.name not in frozenset(excluded)
+    )
+    usable = frozenset(active)
+    sets = (
+        FaceSet(name, tuple(int(i) for i in rig.gene_indices(rig.emotion_sets[name].genes) if i in usable))
+        for name in INITIAL_EMOTIONS
+        if name in rig.emotion_sets
+    )
+    filled = tuple(face_set for face_set in sets if face_set.genes)
+    return SearchParams(len(rig.genes), active, filled, **options)  # type: ignore[arg-type]
