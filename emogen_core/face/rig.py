@@ -1,9 +1,9 @@
 """The rig as a value.
 
-A rig is a blendshape model (EmoGen 2021, section III-A): a neutral mesh an identity, ``K`` shapes given as offsets from it,
-and the genes by which the search moves the core shapes. Shapes stand in a fixed order: core, then combinational
-correctives, then collision correctives. Lengths are millimetres; x points to the head's left, y up, z out of the face; the
-origin is the midpoint between the eyes.
+A rig is a blendshape model (EmoGen 2021, section III-A): a neutral mesh an identity, ``K`` shapes given as offsets
+from it, and the genes by which the search moves the core shapes. Shapes stand in a fixed order: core, then
+combinational correctives, then collision correctives. Lengths are millimetres; x points to the head's left, y up, z out
+of the face; the origin is the midpoint between the eyes.
 
 Symbols: ``G`` genes, ``C`` core shapes, ``K`` shapes, ``N`` vertices, ``T`` triangles.
 """
@@ -31,7 +31,7 @@ REGIONS = ("brow", "lid", "gaze", "cheek", "nose", "mouth", "jaw", "neck")
 class Gene:
     """One degree of freedom of the search: a core shape, or a left/right pair moved together.
 
-    ``action_units`` are FACS codes (Ekman, Friesen & Hager 2002) where one fits, by the rig maker's reading of the shape.
+    ``action_units`` are FACS codes (Ekman, Friesen & Hager 2002) where one fits, as the rig's maker read the shape.
     """
 
     name: str
