@@ -1,4 +1,4 @@
-"""Weights to vertices: ``F = B0 + sum_k alpha_k (B_k - B0)`` (EmoGen 2021, eq. 1), one matrix product a batch."""
+"""Weights to vertices: ``F = B0 + sum_k alpha_k (B_k - B0)`` (EmoGen 2021, eq. 1), one product a batch."""
 
 from __future__ import annotations
 
