@@ -1,0 +1,1 @@
+"""The study server: command line, app, routes, services, store."""

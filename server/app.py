@@ -1,0 +1,45 @@
+"""The app: services in, routes and their guards around them."""
+
+from __future__ import annotations
+
+from importlib.metadata import PackageNotFoundError, version
+from typing import TYPE_CHECKING
+
+from fastapi import FastAPI
+from starlette.staticfiles import StaticFiles
+
+from .assets import asset
+from .routes import errors, health, pages, participant, portraits
+from .routes.guard import Guard
+from .texts.pages import Pages
+
+if TYPE_CHECKING:
+    from .services.house import House
+
+
+def create_app(house: House) -> FastAPI:
+    """Return the app of a house. Start it through `emogen serve`."""
+    app = FastAPI(
+        title="Emogen",
+        version=release(),
+        openapi_url="/api/v1/openapi.json",
+        docs_url=None,
+        redoc_url=None,
+        redirect_slashes=False,
+    )
+    app.state.house = house
+    app.state.pages = Pages(asset("templates"))
+    errors.install(app)
+    for room in (participant, pages, portraits, health):
+        app.include_router(room.router)
+    app.mount("/static", StaticFiles(directory=asset("static")), name="static")
+    app.add_middleware(Guard, settings=house.settings)
+    return app
+
+
+def release() -> str:
+    """Return the version of this distribution."""
+    try:
+        return version("emogen-study")
+    except PackageNotFoundError:
+        return "0"

@@ -1,0 +1,22 @@
+"""How a route reaches the services."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+from fastapi import Depends
+from starlette.requests import Request  # FastAPI reads it at run time
+
+if TYPE_CHECKING:
+    pass
+
+from ..services.house import House
+
+
+def the_house(request: Request) -> House:
+    """Return the services of this process."""
+    house: House = request.app.state.house
+    return house
+
+
+Services = Annotated[House, Depends(the_house)]

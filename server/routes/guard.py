@@ -1,0 +1,151 @@
+"""What stands before every route: a request id, a bounded body, security headers, and no stack trace for anybody."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import time
+import uuid
+from typing import TYPE_CHECKING
+
+from starlette.datastructures import Headers, MutableHeaders
+from starlette.requests import Request
+
+from .errors import answer, error_body
+
+if TYPE_CHECKING:
+    from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+    from ..settings import Settings
+
+logger = logging.getLogger("emogen.request")
+
+POLICY = "; ".join(
+    (
+        "default-src 'none'",
+        "script-src 'self'",
+        "style-src 'self'",
+        "img-src 'self' blob: data:",
+        "font-src 'self'",
+        "connect-src 'self'",
+        "manifest-src 'self'",
+        "form-action 'self'",
+        "base-uri 'none'",
+        "frame-ancestors 'none'",
+    )
+)
+HEADERS = {
+    "Content-Security-Policy": POLICY,
+    "X-Content-Type-Options": "nosniff",
+    "X-Frame-Options": "DENY",
+    "Referrer-Policy": "same-origin",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Permissions-Policy": "camera=(), geolocation=(), microphone=()",
+}
+TRANSPORT = "max-age=31536000; includeSubDomains"
+
+
+class Guard:
+    """ASGI middleware around the whole app."""
+
+    def __init__(self, app: ASGIApp, settings: Settings) -> None:
+        self._app = app
+        self._limit = settings.body_limit_bytes
+        self._patience = settings.body_timeout_seconds
+        self._headers = {**HEADERS, "Strict-Transport-Security": TRANSPORT} if settings.secure else HEADERS
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Take a request."""
+        if scope["type"] != "http":
+            await self._app(scope, receive, send)
+            return
+        exchange = _Exchange(scope, send, self._headers)
+        body = await self._body(scope, receive)
+        try:
+            if isinstance(body, int):
+                await answer(Request(scope), body, error_body(body), {"Connection": "close"})(
+                    scope, receive, exchange.send
+                )
+            else:
+                await self._app(scope, _replay(body, receive), exchange.send)
+        except Exception:
+            logger.exception("request failed", extra={"request_id": exchange.id})
+            if exchange.status:
+                raise
+            await answer(Request(scope), 500, error_body(500, request=exchange.id))(scope, receive, exchange.send)
+        finally:
+            exchange.log()
+
+    async def _body(self, scope: Scope, receive: Receive) -> list[bytes] | int:
+        """Return the whole body, or the status of its refusal: nothing behind this reads more than the limit."""
+        length = Headers(scope=scope).get("content-length", "0")
+        if not length.isdigit():
+            return 400
+        if int(length) > self._limit:
+            return 413
+        try:
+            async with asyncio.timeout(self._patience):
+                return await self._read(receive)
+        except TimeoutError:
+            return 408
+
+    async def _read(self, receive: Receive) -> list[bytes] | int:
+        parts: list[bytes] = []
+        while True:
+            message = await receive()
+            if message["type"] != "http.request":
+                return 400
+            parts.append(message.get("body", b""))
+            if sum(map(len, parts)) > self._limit:
+                return 413
+            if not message.get("more_body", False):
+                return parts
+
+
+class _Exchange:
+    """One request and its answer, as they are logged."""
+
+    def __init__(self, scope: Scope, send: Send, headers: dict[str, str]) -> None:
+        self.id = uuid.uuid4().hex
+        self.status = 0
+        self._scope = scope
+        self._send = send
+        self._headers = headers
+        self._began = time.perf_counter()
+
+    async def send(self, message: Message) -> None:
+        """Send a part of the answer, with the headers that every answer has."""
+        if message["type"] == "http.response.start":
+            self.status = message["status"]
+            headers = MutableHeaders(scope=message)
+            for name, value in self._headers.items():
+                headers.setdefault(name, value)
+            headers.setdefault("Cache-Control", "no-store")
+            headers["X-Request-ID"] = self.id
+        await self._send(message)
+
+    def log(self) -> None:
+        """Write one line about it."""
+        taken = round((time.perf_counter() - self._began) * 1000, 1)
+        extra = {"request_id": self.id, "method": self._scope["method"], "status": self.status, "ms": taken}
+        logger.info("request", extra={**extra, "path": public_path(self._scope["path"])})
+
+
+def public_path(path: str) -> str:
+    """Return a path without the token in it: whoever reads the log must not be able to answer for a participant."""
+    parts = path.split("/")
+    return "/".join([*parts[:2], "…", *parts[3:]]) if len(parts) > 2 and parts[1] == "p" else path
+
+
+def _replay(parts: list[bytes], receive: Receive) -> Receive:
+    """Return a `receive` that gives the body that was read, then whatever the connection says next."""
+    given = False
+
+    async def again() -> Message:
+        nonlocal given
+        if given:
+            return await receive()
+        given = True
+        return {"type": "http.request", "body": b"".join(parts), "more_body": False}
+
+    return again

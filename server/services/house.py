@@ -1,0 +1,73 @@
+"""All services of one server process, built from the settings and the outside world."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ..store import studies
+from ..store.engine import Database
+from ..store.migrate import upgrade
+from .answers import Answers
+from .joining import Joining
+from .journal import Journal
+from .participation import Participations
+from .portrait_files import PortraitFiles
+from .portraits import Portraits
+from .studies import Studies
+
+if TYPE_CHECKING:
+    from emogen_core.face.rig import Rig
+
+    from ..settings import Settings
+    from .portraits import PortraitDrawer
+
+
+@dataclass(frozen=True)
+class House:
+    """What routes and commands may call."""
+
+    settings: Settings
+    journal: Journal
+    joining: Joining
+    answers: Answers
+    participations: Participations
+    studies: Studies
+
+    @property
+    def database(self) -> Database:
+        """The database."""
+        return self.journal.database
+
+    @property
+    def portraits(self) -> Portraits:
+        """The portraits."""
+        return self.journal.portraits
+
+    def ready(self) -> None:
+        """Raise when the database does not answer."""
+        with self.database.read() as tx:
+            studies.all_studies(tx)
+
+    def close(self) -> None:
+        """Stop drawing and close the database."""
+        self.portraits.close()
+        self.database.close()
+
+
+def build_house(settings: Settings, rig: Rig, drawer: PortraitDrawer) -> House:
+    """Migrate the database and return all services."""
+    settings.data_dir.mkdir(parents=True, exist_ok=True)
+    upgrade(settings.url)
+    database = Database(settings.url)
+    files = PortraitFiles(settings.data_dir / "portraits")
+    portraits = Portraits(drawer, files, database, settings.portrait_memory_mb * 2**20)
+    journal = Journal(database, rig, portraits)
+    return House(
+        settings,
+        journal,
+        Joining(journal),
+        Answers(journal),
+        Participations(journal),
+        Studies(journal),
+    )

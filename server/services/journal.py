@@ -1,0 +1,51 @@
+"""What a participation needs from the house: the database, the rig, the portraits; and how its rows are found."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ..store import runs, studies
+from .clock import digest
+from .config import StudyConfig
+from .errors import NotFoundError
+from .evolution import Evolution
+
+if TYPE_CHECKING:
+    from emogen_core.face.rig import Rig
+
+    from ..store.engine import Database, Tx
+    from ..store.runs_tables import Participation
+    from .portraits import Portraits
+
+
+@dataclass(frozen=True)
+class Journal:
+    """The tools of every service that works on a participation."""
+
+    database: Database
+    rig: Rig
+    portraits: Portraits
+
+    def evolution(self, config: StudyConfig) -> Evolution:
+        """Return the search of a study."""
+        return Evolution(self.rig, config, self.portraits.key)
+
+    def find(self, tx: Tx, token: str, *, lock: bool = False) -> tuple[Participation, StudyConfig]:
+        """Return the participation of a token and the study as it was when it began.
+
+        Raises:
+            NotFoundError: nobody has this token.
+        """
+        participation = runs.participation_by_token(tx, digest(token), lock=lock)
+        if participation is None:
+            raise NotFoundError("This address leads to no participation. Go back to the link you were sent.")
+        return participation, config_of(tx, participation.version_id)
+
+
+def config_of(tx: Tx, version_id: str) -> StudyConfig:
+    """Return the study of a version."""
+    version = studies.version(tx, version_id)
+    if version is None:
+        raise NotFoundError("This version of the study is not there.")
+    return StudyConfig.model_validate(version.config)

@@ -1,0 +1,97 @@
+"""A house with a small rig and a drawer that draws nothing, for every test of the server."""
+
+from __future__ import annotations
+
+import base64
+import threading
+from concurrent.futures import Future
+
+import pytest
+from starlette.testclient import TestClient
+
+from emogen_core.rendering.keys import portrait_key
+from server.app import create_app
+from server.services.config import Emotion, StudyConfig
+from server.services.house import build_house
+from server.settings import Settings
+from tests.rig_factory import small_rig
+
+PIXEL = base64.b64decode("iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGM4CQAAywDKWvQYfgAAAABJRU5ErkJggg==")
+
+
+class FakeDrawer:
+    """Answers every face with one grey pixel; counts, and can be held."""
+
+    def __init__(self, rig):
+        self.rig = rig
+        self.drawn = []
+        self.hold = False
+        self.waiting = []
+        self.lock = threading.Lock()
+
+    def key(self, identity, weights, settings):
+        return portrait_key(self.rig.hash, "no look", identity, weights, settings)
+
+    def submit(self, identity, weights, settings, priority):
+        future = Future()
+        with self.lock:
+            self.drawn.append((self.key(identity, weights, settings), priority))
+            self.waiting.append(future)
+        if not self.hold:
+            self.release()
+        return future
+
+    def release(self):
+        with self.lock:
+            ready, self.waiting = self.waiting, []
+        for future in ready:
+            if future.set_running_or_notify_cancel():
+                future.set_result(PIXEL)
+
+    def close(self):
+        pass
+
+
+def small_study(**changes):
+    plain = {
+        "title": "Small study",
+        "emotions": (Emotion(adjective="happy", noun="happiness"), Emotion(adjective="angry", noun="anger")),
+        "identities": ("female",),
+        "generations": 2,
+        "search": {"activation": (2, 3), "random_genes": 3},
+        "recruiter_parameters": ("PROLIFIC_PID",),
+    }
+    return StudyConfig.model_validate({**plain, **changes})
+
+
+@pytest.fixture
+def rig():
+    return small_rig()
+
+
+@pytest.fixture
+def settings(tmp_path):
+    return Settings(data_dir=tmp_path / "var", base_url="http://testserver")
+
+
+@pytest.fixture
+def drawer(rig):
+    return FakeDrawer(rig)
+
+
+@pytest.fixture
+def house(settings, rig, drawer):
+    made = build_house(settings, rig, drawer)
+    yield made
+    made.close()
+
+
+@pytest.fixture
+def study(house):
+    return house.studies.create(small_study())
+
+
+@pytest.fixture
+def client(house):
+    with TestClient(create_app(house), follow_redirects=False) as made:
+        yield made

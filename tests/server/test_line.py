@@ -1,0 +1,35 @@
+"""The main line over HTTP: join, consent, instructions, practice, trials, ratings, completion."""
+
+from tests.server.walker import Walker
+
+
+def test_whole_participation(client, study):
+    walker = Walker(client, study.links[0])
+    steps = []
+    state = walker.state()
+    while state["step"] != "debrief":
+        steps.append(state["step"])
+        state = walker.step(state)
+    assert steps == ["consent", "instructions", "practice", *["evolve"] * 3, "rating", *["evolve"] * 3, "rating"]
+    assert state["completion"]["outcome"] == "complete"
+    assert state["completion"]["code"] and state["completion"]["withdrawal_code"]
+    assert state["progress"] == {"trial": 2, "trials": 2}
+
+
+def test_every_shown_portrait_is_served(client, study):
+    walker = Walker(client, study.links[0])
+    for face in walker.start()["trial"]["faces"]:
+        reply = client.get(face["portrait"])
+        assert reply.status_code == 200
+        assert reply.headers["content-type"] == "image/png"
+        assert "immutable" in reply.headers["cache-control"]
+        again = client.get(face["portrait"], headers={"if-none-match": reply.headers["etag"]})
+        assert (again.status_code, again.content) == (304, b"")
+
+
+def test_a_link_leads_back_to_the_running_participation(client, study):
+    walker = Walker(client, study.links[0])
+    back = client.get(f"/s/{study.links[0]}")
+    assert (back.status_code, back.headers["location"]) == (303, walker.address)
+    client.cookies.clear()
+    assert client.get(f"/s/{study.links[0]}").status_code == 200
