@@ -1,7 +1,7 @@
 """The order in which a genome becomes a face, written here and nowhere else.
 
-genes -> core weights -> combinational products -> (collision correctives) -> weights of all shapes. The vertices follow from
-these by `emogen_core.face.evaluate`. EmoGen 2021, section III-A.
+genes -> core weights -> combinational products -> (collision correctives) -> weights of all shapes. The vertices
+follow from these by `emogen_core.face.evaluate`. EmoGen 2021, section III-A.
 """
 
 from __future__ import annotations

@@ -30,8 +30,11 @@ def vertices(rig: Rig, identity: str, weights: NDArray[np.float32]) -> NDArray[n
     """
     neutral = rig.neutral(identity)
     alpha = checked_weights(weights, len(rig.shape_names))
-    offsets = rig.offsets.reshape(len(rig.offsets), -1)
-    return neutral + (alpha @ offsets).reshape(len(alpha), *neutral.shape)
+    moved = alpha @ rig.offsets.reshape(len(rig.offsets), -1)
+    adjustment = rig.adjustments.get(identity)
+    if adjustment is not None:
+        moved += alpha[:, adjustment.shapes] @ adjustment.offsets.reshape(len(adjustment.shapes), -1)
+    return neutral + moved.reshape(len(alpha), *neutral.shape)
 
 
 def checked_weights(weights: NDArray[np.float32], count: int) -> NDArray[np.float32]:

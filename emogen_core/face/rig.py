@@ -45,7 +45,8 @@ class Gene:
 class Combination:
     """A combinational corrective, driven by the product of its parents' weights.
 
-    Correctives that share a ``family`` are damped together when more than two of the family's genes are high.
+    ``parents`` are genes. Correctives that share a ``family`` are damped together when more than two of the family's
+    genes are high.
     """
 
     name: str
@@ -60,6 +61,19 @@ class EmotionSet:
     genes: tuple[str, ...]
     action_units: tuple[str, ...]
     source: str
+
+
+@dataclass(frozen=True, slots=True)
+class Adjustment:
+    """What one identity adds to some shapes' offsets.
+
+    Attributes:
+        shapes: (S,) indices of shapes.
+        offsets: (S, N, 3) float32, millimetres, added to the rig's offsets of those shapes.
+    """
+
+    shapes: NDArray[np.intp]
+    offsets: NDArray[np.float32]
 
 
 @dataclass(frozen=True)
@@ -79,6 +93,8 @@ class Rig:
         triangles: (T, 3) int32 vertex indices, counter-clockwise seen from outside.
         parts: part name -> (first, last + 1) row of ``triangles``.
         regions: name -> int32 vertex indices (lips, lids, teeth) for the correctives.
+        mirror: (N,) int32 mirror image of every vertex; empty for a rig that is not symmetric.
+        adjustments: identity name -> how that head's shapes differ from ``offsets`` (lids of another height).
     """
 
     name: str
@@ -92,6 +108,8 @@ class Rig:
     triangles: NDArray[np.int32]
     parts: Mapping[str, tuple[int, int]]
     regions: Mapping[str, NDArray[np.int32]] = field(default_factory=dict)
+    mirror: NDArray[np.int32] = field(default_factory=lambda: np.zeros(0, np.int32))
+    adjustments: Mapping[str, Adjustment] = field(default_factory=dict)
     hash: str = ""
 
     @property
@@ -108,6 +126,15 @@ class Rig:
     def identities(self) -> tuple[str, ...]:
         """Names of the heads that can wear this rig."""
         return tuple(self.neutrals)
+
+    def shape_offsets(self, identity: str) -> NDArray[np.float32]:
+        """Return the (K, N, 3) offsets as an identity wears them; ``offsets`` itself where nothing is adjusted."""
+        adjustment = self.adjustments.get(identity)
+        if adjustment is None:
+            return self.offsets
+        worn = self.offsets.copy()
+        worn[adjustment.shapes] += adjustment.offsets
+        return worn
 
     @cached_property
     def gene_to_core(self) -> NDArray[np.float32]:

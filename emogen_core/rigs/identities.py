@@ -1,8 +1,8 @@
 """Identities: blends of MakeHuman's macro targets, brought to one scale and mended until eyes and lips fit.
 
-The ancestry targets are graphic presets, not anthropometrically validated. Every head is made mirror-symmetric, moved so
-that the midpoint of its fitted eyeballs is the origin, and scaled to one eyeball radius; the units, which were made for
-the base head, then fit all of them.
+The ancestry targets are graphic presets, not anthropometrically validated. Every head is made mirror-symmetric,
+moved so that the midpoint of its fitted eyeballs is the origin, and scaled to one eyeball radius; the units, which
+were made for the base head, then fit all of them.
 """
 
 from __future__ import annotations
