@@ -1,0 +1,63 @@
+"""What each template needs beside the state: hints that fit the study's limits, and the modules to load early."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from markupsafe import Markup
+
+    from .catalogue import Catalogue
+
+# The browser would find these one after the other; named in the page they come at once.
+MODULES = (
+    "page", "dialog", "enlarge", "events", "grid", "keyboard", "outbox", "panel", "pointer", "portraits", "progress",
+    "selection", "status", "store", "views",
+)  # fmt: skip
+OUTCOMES = {"no_consent": "declined", "stopped": "stopped", "erased": "erased"}
+TEMPLATES = {"practice": "evolve"}
+
+
+def template_of(state: Mapping[str, Any]) -> str:
+    """Return the template of a step."""
+    step = str(state["step"])
+    return f"{TEMPLATES.get(step, step)}.html"
+
+
+def page_values(words: Catalogue, state: Mapping[str, Any], new_id: Callable[[], str]) -> dict[str, Any]:
+    """Return the values of a step's template; a page shown again after an error lays its own over them."""
+    values: dict[str, Any] = {"answer_id": new_id(), "reset_id": new_id(), "agreed": [], "given": {}}
+    if "trial" in state:
+        values |= _evolve(words, state["trial"])
+    if "completion" in state:
+        completion = state["completion"]
+        outcome = OUTCOMES.get(completion.get("outcome"), "over")
+        values |= {"outcome": outcome, "withdrawal_code": completion.get("withdrawal_code")}
+    return values
+
+
+def _evolve(words: Catalogue, trial: Mapping[str, Any]) -> dict[str, Any]:
+    long, short = _hints(words, trial)
+    return {"hint": long, "hint_short": short, "selected": [], "elite": None, "modules": MODULES}
+
+
+def _hints(words: Catalogue, trial: Mapping[str, Any]) -> tuple[Markup, Markup]:
+    """Return the hint for a wide and for a narrow page."""
+    least, most, faces = trial["minimum"], trial["maximum"], len(trial["faces"])
+    if (least, most) == (1, faces):
+        return words.say("evolve.hint"), words.say("evolve.hint_short")
+    key = _hint_key(least, most, faces)
+    both = words.say(f"evolve.{key}", minimum=least, maximum=most)
+    return both, both
+
+
+def _hint_key(least: int, most: int, faces: int) -> str:
+    if most == 1:
+        return "hint_single"
+    if least == most:
+        return "hint_exactly"
+    if least == 1:
+        return "hint_up_to"
+    return "hint_at_least" if most == faces else "hint_between"

@@ -1,0 +1,59 @@
+// The paper card over ten empty tiles: drawing, connection lost.
+
+import { byId, say, wait } from "./page.js";
+
+const APPEARS = 400;
+const STAYS = 400;
+
+export class Panel {
+  constructor(outbox) {
+    this.root = byId("panel");
+    this.title = this.root.querySelector("h2");
+    this.lead = this.root.querySelector(".panel-lead");
+    this.segments = [...this.root.querySelectorAll(".segments i")];
+    this.nextTry = this.root.querySelector(".next-try");
+    this.shownAt = null;
+    byId("try-now").addEventListener("click", () => outbox.tryNow());
+  }
+
+  /** Show "drawing" unless the faces are there within 400 ms. */
+  expectDrawing() {
+    clearTimeout(this.timer);
+    this.progress(0);
+    this.timer = setTimeout(() => this.#open("drawing"), APPEARS);
+  }
+
+  progress(ready) {
+    this.segments.forEach((segment, index) => segment.classList.toggle("done", index < ready));
+  }
+
+  showOffline(closing) {
+    clearTimeout(this.timer);
+    this.root.querySelector(".panel-close").textContent = closing;
+    if (this.root.hidden || !this.root.classList.contains("offline")) this.#open("offline");
+  }
+
+  countDown(seconds) {
+    this.nextTry.textContent = seconds ? say("next_try", { count: seconds }) : say("trying");
+  }
+
+  /** A panel that has appeared stays long enough to be read. */
+  async close() {
+    clearTimeout(this.timer);
+    if (this.shownAt !== null) await wait(Math.max(0, STAYS - (performance.now() - this.shownAt)));
+  }
+
+  hide() {
+    clearTimeout(this.timer);
+    this.root.hidden = true;
+    this.shownAt = null;
+  }
+
+  #open(kind) {
+    this.root.classList.toggle("offline", kind === "offline");
+    this.root.hidden = false;
+    this.shownAt = performance.now();
+    this.title.textContent = say(kind);
+    this.lead.textContent = say(`${kind}_text`);
+  }
+}
