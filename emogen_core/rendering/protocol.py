@@ -25,9 +25,7 @@ class RenderSettings:
 class Renderer(Protocol):
     """Draws faces of one rig and look; lives in one thread and keeps its GL objects between calls."""
 
-    def draw(
-        self, identity: str, weights: NDArray[np.float32], settings: RenderSettings
-    ) -> NDArray[np.uint8]:
+    def draw(self, identity: str, weights: NDArray[np.float32], settings: RenderSettings) -> NDArray[np.uint8]:
         """Draw faces given by their full weights, correctives included.
 
         Args:

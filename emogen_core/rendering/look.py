@@ -1,0 +1,203 @@
+"""The look as a value: what a rig's head looks like. Colour, occlusion, wrinkles; never its shape.
+
+A look dresses one topology: its layers say for every vertex that is drawn (a *render vertex*) which vertex of the rig
+it follows, so a rig vertex on a texture seam becomes several render vertices. Layers are drawn in order: the skin with
+all that lies in the mouth, the eyeballs, the lashes.
+
+Symbols: ``R`` render vertices of a layer, ``G`` wrinkle groups.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import io
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from PIL import Image
+
+from emogen_core.errors import InvalidInputError, RigFileError, expected
+from emogen_core.face.container import read_container, write_container
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from emogen_core.face.rig import Rig
+
+KIND = "look"
+VERSION = 1
+LAYERS = ("skin", "eyes", "lashes")
+_LAYER_FIELDS = ("source", "uv", "triangles", "surface")
+
+
+@dataclass(frozen=True)
+class Layer:
+    """One mesh that is drawn.
+
+    Attributes:
+        source: (R,) int32, the rig vertex that a render vertex follows.
+        uv: (R, 2) float32 texture coordinates, origin at the lower left.
+        triangles: (t, 3) int32 into the render vertices.
+        surface: (R, 3) float32 in [0, 1]: how much it is skin, how glossy, how deep inside the mouth.
+    """
+
+    source: NDArray[np.int32]
+    uv: NDArray[np.float32]
+    triangles: NDArray[np.int32]
+    surface: NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class Style:
+    """What one identity wears.
+
+    Attributes:
+        skin, eyes, lashes: names of textures.
+        bake: name of the baked light.
+        tone: mean sRGB colour of the skin, 0 to 1; shine is broken up where the texture departs from it.
+        lash: sRGB colour of the lashes.
+        wrinkles: how strongly expression lines show, 0 to 1.
+        shine: strength of the skin's highlights.
+    """
+
+    skin: str
+    eyes: str
+    lashes: str
+    bake: str
+    tone: tuple[float, float, float]
+    lash: tuple[float, float, float] = (0.1, 0.07, 0.06)
+    wrinkles: float = 0.55
+    shine: float = 1.0
+
+
+@dataclass(frozen=True)
+class Look:
+    """How a head of one topology is dressed.
+
+    Attributes:
+        name: short name.
+        hash: SHA-256 of its content, hexadecimal.
+        topology: `topology_hash` of the rigs that it fits.
+        layers: layer name -> mesh, in drawing order.
+        styles: identity -> what it wears.
+        default: the identity whose style is worn by heads that the look does not know.
+        textures: name -> bytes (uint8) of a WebP or PNG file; ``relief`` is the grey wrinkle relief of the skin.
+        bakes: name -> (R, 3) float32 in [0, 1] of the skin layer: ambient occlusion, sight of the key light,
+            translucency.
+        wrinkle_masks: (R, G) float32, where each wrinkle group shows on the skin layer.
+        wrinkle_drivers: for each group, shape name -> gain.
+        mouth_drivers: shape name -> how much that shape opens the mouth.
+        lids: ``left_upper``, ``left_lower``, ``right_upper``, ``right_lower`` -> rig vertices of the lid's edge, by x.
+    """
+
+    name: str
+    topology: str
+    layers: Mapping[str, Layer]
+    styles: Mapping[str, Style]
+    default: str
+    textures: Mapping[str, NDArray[np.uint8]]
+    bakes: Mapping[str, NDArray[np.float32]]
+    wrinkle_masks: NDArray[np.float32]
+    wrinkle_drivers: tuple[Mapping[str, float], ...] = ()
+    mouth_drivers: Mapping[str, float] = field(default_factory=dict)
+    lids: Mapping[str, NDArray[np.int32]] = field(default_factory=dict)
+    hash: str = ""
+
+    def style(self, identity: str) -> Style:
+        """Return what an identity wears; an identity unknown to the look wears the default's style."""
+        return self.styles.get(identity, self.styles[self.default])
+
+    def texture(self, name: str, mode: str = "RGB") -> NDArray[np.uint8]:
+        """Return a texture decoded to (h, w) or (h, w, channels) uint8, in one of Pillow's modes."""
+        with Image.open(io.BytesIO(self.textures[name].tobytes())) as picture:
+            return np.asarray(picture.convert(mode))
+
+    def check(self, rig: Rig) -> None:
+        """Raise `InvalidInputError` unless this look fits the rig."""
+        if topology_hash(rig) != self.topology:
+            raise InvalidInputError(f"look: {expected(f'one made for the rig {rig.name!r}', self.name)}")
+
+
+def topology_hash(rig: Rig) -> str:
+    """Return the SHA-256 of a rig's triangles and parts: what a look has to know of a rig."""
+    digest = hashlib.sha256(np.ascontiguousarray(rig.triangles, "<i4").tobytes())
+    digest.update(repr(sorted((name, *map(int, rows)) for name, rows in rig.parts.items())).encode())
+    return digest.hexdigest()
+
+
+def save_look(path: Path, look: Look) -> str:
+    """Store a look in a container and return its hash; masks are kept in 8 bits, texture coordinates in 16."""
+    document: dict[str, Any] = {
+        "name": look.name,
+        "topology": look.topology,
+        "default": look.default,
+        "styles": {name: _style_document(style) for name, style in look.styles.items()},
+        "wrinkle_drivers": [dict(drivers) for drivers in look.wrinkle_drivers],
+        "mouth_drivers": dict(look.mouth_drivers),
+    }
+    arrays: dict[str, NDArray[Any]] = {"wrinkle_masks": _bytes(look.wrinkle_masks)}
+    for name, layer in look.layers.items():
+        arrays[f"layers/{name}/source"] = layer.source
+        arrays[f"layers/{name}/uv"] = np.round(layer.uv * 65535).astype(np.uint16)
+        arrays[f"layers/{name}/triangles"] = layer.triangles
+        arrays[f"layers/{name}/surface"] = _bytes(layer.surface)
+    arrays |= {f"textures/{name}": data for name, data in look.textures.items()}
+    arrays |= {f"bakes/{name}": _bytes(bake) for name, bake in look.bakes.items()}
+    arrays |= {f"lids/{name}": rows for name, rows in look.lids.items()}
+    return write_container(path, KIND, VERSION, document, arrays)
+
+
+def load_look(path: Path) -> Look:
+    """Read a look and verify it.
+
+    Raises:
+        RigFileError: damaged, foreign, of another version, or something in it is missing.
+    """
+    document, arrays, digest = read_container(path, KIND, VERSION)
+    try:
+        return Look(
+            name=document["name"],
+            topology=document["topology"],
+            default=document["default"],
+            layers={name: _layer(arrays, name) for name in LAYERS if f"layers/{name}/source" in arrays},
+            styles={name: _style(values) for name, values in document["styles"].items()},
+            textures=_folder(arrays, "textures"),
+            bakes={name: _floats(bake) for name, bake in _folder(arrays, "bakes").items()},
+            wrinkle_masks=_floats(arrays["wrinkle_masks"]),
+            wrinkle_drivers=tuple(document["wrinkle_drivers"]),
+            mouth_drivers=document["mouth_drivers"],
+            lids=_folder(arrays, "lids"),
+            hash=digest,
+        )
+    except (KeyError, TypeError) as error:
+        raise RigFileError(f"{path.name}: {expected('a complete look', repr(error))}") from error
+
+
+def _style_document(style: Style) -> dict[str, Any]:
+    return {name: getattr(style, name) for name in Style.__dataclass_fields__}
+
+
+def _style(values: dict[str, Any]) -> Style:
+    return Style(**{**values, "tone": tuple(values["tone"]), "lash": tuple(values["lash"])})
+
+
+def _layer(arrays: Mapping[str, NDArray[Any]], name: str) -> Layer:
+    source, uv, triangles, surface = (arrays[f"layers/{name}/{part}"] for part in _LAYER_FIELDS)
+    return Layer(source, (uv / 65535).astype(np.float32), triangles, _floats(surface))
+
+
+def _folder(arrays: Mapping[str, NDArray[Any]], folder: str) -> dict[str, NDArray[Any]]:
+    start = f"{folder}/"
+    return {name.removeprefix(start): array for name, array in arrays.items() if name.startswith(start)}
+
+
+def _bytes(values: NDArray[np.float32]) -> NDArray[np.uint8]:
+    return np.round(np.clip(values, 0, 1) * 255).astype(np.uint8)
+
+
+def _floats(values: NDArray[np.uint8]) -> NDArray[np.float32]:
+    return np.divide(values, 255, dtype=np.float32)

@@ -1,0 +1,279 @@
+# ruff: noqa: ARG002 - pyrender decides what its hooks are given.
+"""The fast renderer: pyrender, kept alive with its own shaders and passes. Only this file touches pyrender or OpenGL.
+
+pyrender used as its manual says makes a renderer, a scene and four-fold multisampling for every picture: about 500 ms
+a face on software OpenGL. Kept alive, lit in the vertex shader, drawn at twice the size without multisampling and
+averaged down, the same face takes about 20. The hooks that this needs are private members of pyrender 0.1.45, hence
+the exact pin.
+
+Notes on its traps: terminating the EGL display of one renderer kills every other in the process, so a thread keeps
+one context for good; textures that are not in the scene are dropped by `_update_context`, so only additions happen
+here; lights are kept in a set without order, so they live in the shader; `Scene.bounds` fails with numpy 2, so the
+camera is ours.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import threading
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from emogen_core.errors import MissingGLError, RenderingError
+from emogen_core.rendering.camera import FAR, FIELD_OF_VIEW, NEAR, frame_head
+from emogen_core.rendering.surface import COLUMNS, LIGHT, NORMAL, POSITION, TEXTURE, TINT, Surface
+
+os.environ.setdefault("PYOPENGL_PLATFORM", "egl")
+_NO_GL = (
+    "Faces cannot be drawn: this machine offers no OpenGL through EGL ({reason}); "
+    "install it, on Debian or Ubuntu with: apt-get install libegl1 libgl1 libgl1-mesa-dri"
+)
+try:
+    import pyrender
+    from OpenGL import GL
+    from pyrender.constants import RenderFlags
+    from pyrender.platforms import egl
+    from pyrender.renderer import Renderer as _PyrenderRenderer
+    from pyrender.shader_program import ShaderProgramCache
+except Exception as error:
+    # PyOpenGL reports a missing library as ImportError, OSError, AttributeError or TypeError, by version and library.
+    raise MissingGLError(_NO_GL.format(reason=f"{type(error).__name__}: {error}")) from error
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from emogen_core.face.rig import Rig
+    from emogen_core.rendering.camera import Camera
+    from emogen_core.rendering.look import Layer, Look, Style
+    from emogen_core.rendering.protocol import RenderSettings
+
+_KINDS = {"skin": {}, "eyes": {"KIND_EYE": 1}, "lashes": {"KIND_LASH": 1}}
+_SUPERSAMPLING = 2
+_contexts = threading.local()
+
+
+class PyrenderRenderer:
+    """Draws faces with pyrender on EGL. Use it only in the thread that made it; several may live side by side."""
+
+    def __init__(self, rig: Rig, look: Look) -> None:
+        """Open a GL context (or share the thread's) and prepare the meshes of a rig in a look.
+
+        Raises:
+            MissingGLError: no usable OpenGL on this machine.
+            InvalidInputError: the look does not fit the rig.
+        """
+        self._context = _context()
+        self.surface = Surface(rig, look)
+        self._look = look
+        self._textures: dict[tuple[str, str], Any] = {}
+        self._cameras: dict[str, Camera] = {}
+        self._scene = pyrender.Scene(ambient_light=np.zeros(3), bg_color=np.ones(4))
+        self._eye = self._scene.add(pyrender.PerspectiveCamera(FIELD_OF_VIEW, znear=NEAR, zfar=FAR))
+        self._meshes = [self._add(name, layer) for name, layer in look.layers.items()]
+        self._pass: _Pass | None = _Pass(self._meshes)
+
+    def draw(self, identity: str, weights: NDArray[np.float32], settings: RenderSettings) -> NDArray[np.uint8]:
+        """Draw a (B, K) batch: (B, height, width, 3) uint8 sRGB. See `emogen_core.rendering.protocol.Renderer`."""
+        pictures = np.empty((len(weights), settings.height, settings.width, 3), np.uint8)
+        for picture, rows in zip(pictures, self.surface.faces(identity, weights), strict=True):
+            self.upload(rows)
+            picture[:] = self.shoot(identity, settings)
+        return pictures
+
+    def upload(self, rows: dict[str, NDArray[np.float32]]) -> None:
+        """Send the (R, 14) rows of each layer to the card."""
+        if self._pass is None:
+            raise RenderingError("this renderer is closed")
+        self._context.make_current()
+        for mesh in self._meshes:
+            primitive, data = mesh.primitives[0], rows[mesh.name]
+            if primitive._vaid is None:
+                primitive._add_to_context()
+            GL.glBindBuffer(GL.GL_ARRAY_BUFFER, primitive._buffers[0])
+            GL.glBufferSubData(GL.GL_ARRAY_BUFFER, 0, data.nbytes, data)
+
+    def shoot(self, identity: str, settings: RenderSettings) -> NDArray[np.uint8]:
+        """Return the picture (height, width, 3) of what was uploaded last, in the identity's style and camera."""
+        if self._pass is None:
+            raise RenderingError("this renderer is closed")
+        self._dress(self._look.style(identity))
+        camera = self.camera(identity)
+        self._pass.aim(camera, self._look.style(identity), settings)
+        pose = np.eye(4)
+        pose[1:3, 3] = camera.height, camera.distance
+        self._scene.set_pose(self._eye, pose)
+        self._scene.bg_color = np.array([*settings.background, 255], np.float64) / 255
+        picture: NDArray[np.uint8] = self._pass.render(self._scene, RenderFlags.OFFSCREEN)
+        return picture
+
+    def camera(self, identity: str) -> Camera:
+        """Return the camera that frames this identity."""
+        if identity not in self._cameras:
+            rig = self.surface.rig
+            first, last = rig.parts["skin"]
+            skin = rig.neutral(identity)[np.unique(rig.triangles[first:last])]
+            self._cameras[identity] = frame_head(skin)
+        return self._cameras[identity]
+
+    def close(self) -> None:
+        """Free the buffers and textures; the thread's context stays, since others may share it."""
+        if self._pass is not None:
+            self._context.make_current()
+            self._pass.delete()
+            self._pass = None
+            self._textures.clear()
+
+    def _add(self, name: str, layer: Layer) -> Any:
+        rows = np.zeros((len(layer.source), COLUMNS), np.float32)
+        rows[:, TINT] = 1  # any other alpha would mark the mesh as transparent for good
+        primitive = pyrender.Primitive(
+            positions=rows[:, POSITION], normals=rows[:, NORMAL], texcoord_0=rows[:, TEXTURE],
+            texcoord_1=rows[:, LIGHT], color_0=rows[:, TINT], indices=layer.triangles, mode=4,
+            material=pyrender.MetallicRoughnessMaterial(
+                name=name, alphaMode="BLEND" if name == "lashes" else "OPAQUE", doubleSided=name == "lashes"
+            ),
+        )  # fmt: skip
+        mesh = pyrender.Mesh([primitive], name=name)
+        self._scene.add(mesh)
+        return mesh
+
+    def _dress(self, style: Style) -> None:
+        for mesh in self._meshes:
+            texture = self._texture(mesh.name, getattr(style, mesh.name))
+            mesh.primitives[0].material.baseColorTexture = texture
+
+    def _texture(self, kind: str, name: str) -> Any:
+        if (kind, name) not in self._textures:
+            sampler = pyrender.Sampler(magFilter=GL.GL_LINEAR, minFilter=GL.GL_LINEAR_MIPMAP_NEAREST)
+            pixels = self._look.texture(name, "RGBA").copy()
+            if kind == "skin" and "relief" in self._look.textures:
+                pixels[..., 3] = self._look.texture("relief", "L")
+            self._textures[kind, name] = pyrender.Texture(source=pixels, source_channels="RGBA", sampler=sampler)
+        return self._textures[kind, name]
+
+
+class _Pass(_PyrenderRenderer):
+    """pyrender's renderer without multisampling, depth reading and lights; our shaders, our order of drawing."""
+
+    def __init__(self, meshes: list[Any]) -> None:
+        super().__init__(1, 1)
+        self._order = meshes
+        self._program_cache = ShaderProgramCache(shader_dir=str(Path(__file__).parent / "shaders"))
+        self._frames: dict[tuple[int, int], tuple[int, int, int]] = {}
+        self._uniforms: dict[str, Any] = {}
+        self._tones: dict[str, Any] = {}
+        self._mesh_textures: set[Any] = set()
+
+    def aim(self, camera: Camera, style: Style, settings: RenderSettings) -> None:
+        self._width, self._height = settings.width, settings.height
+        self.viewport_width, self.viewport_height = (_SUPERSAMPLING * n for n in (settings.width, settings.height))
+        span = 2 * (camera.height - camera.bottom)
+        self._tones = {"skin": np.array(style.tone), "eyes": np.ones(3), "lashes": np.array(style.lash)}
+        self._uniforms = {
+            "fade": np.array([camera.bottom + 0.10 * span, camera.bottom + 0.005 * span, 1e-3]),
+            "background": np.array(settings.background, np.float64) / 255,
+            "shine_scale": float(style.shine),
+        }
+
+    def delete(self) -> None:
+        for texture in self._mesh_textures:
+            texture.delete()
+        for mesh in self._order:
+            mesh.primitives[0].delete()
+        for colour, depth, frame in self._frames.values():
+            GL.glDeleteFramebuffers(1, [frame])
+            GL.glDeleteRenderbuffers(2, [colour, depth])
+        self._program_cache.clear()
+        self._frames, self._mesh_textures = {}, set()
+
+    def _update_context(self, scene: Any, flags: int) -> None:
+        for mesh in self._order:
+            for texture in mesh.primitives[0].material.textures - self._mesh_textures:
+                texture._add_to_context()
+                self._mesh_textures.add(texture)
+
+    def _sorted_mesh_nodes(self, scene: Any) -> list[Any]:
+        nodes = {node.mesh.name: node for node in scene.mesh_nodes}
+        return [nodes[mesh.name] for mesh in self._order]
+
+    def _get_primitive_program(self, primitive: Any, flags: int, program_flags: int) -> Any:
+        program = self._program_cache.get_program("mesh.vert", "mesh.frag", defines=_KINDS[primitive.material.name])
+        if not program._in_context():
+            program._add_to_context()
+        return program
+
+    def _bind_lighting(self, scene: Any, program: Any, node: Any, flags: int) -> None:
+        for name, value in self._uniforms.items():
+            program.set_uniform(name, value)
+        program.set_uniform("tone", self._tones[node.mesh.name])
+
+    def _configure_forward_pass_viewport(self, flags: int) -> None:
+        frame = self._frame(self.viewport_width, self.viewport_height)
+        GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, frame)
+        GL.glViewport(0, 0, self.viewport_width, self.viewport_height)
+        GL.glEnable(GL.GL_DEPTH_TEST)
+        GL.glDepthMask(GL.GL_TRUE)
+        GL.glDepthFunc(GL.GL_LESS)
+
+    def _read_main_framebuffer(self, scene: Any, flags: int) -> NDArray[np.uint8]:
+        """Average the picture down on the card and read it, colour only."""
+        width, height = self._width, self._height
+        small = self._frame(width, height)
+        GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self._frame(self.viewport_width, self.viewport_height))
+        GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, small)
+        GL.glBlitFramebuffer(
+            0, 0, self.viewport_width, self.viewport_height, 0, 0, width, height,
+            GL.GL_COLOR_BUFFER_BIT, GL.GL_LINEAR,
+        )  # fmt: skip
+        GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, small)
+        GL.glPixelStorei(GL.GL_PACK_ALIGNMENT, 1)
+        picture = np.empty((height, width, 3), np.uint8)
+        GL.glReadPixels(0, 0, width, height, GL.GL_RGB, GL.GL_UNSIGNED_BYTE, picture)
+        return picture[::-1]
+
+    def _frame(self, width: int, height: int) -> int:
+        if (width, height) not in self._frames:
+            self._frames[width, height] = self._make_frame(width, height)
+        return self._frames[width, height][2]
+
+    @staticmethod
+    def _make_frame(width: int, height: int) -> tuple[int, int, int]:
+        colour, depth = GL.glGenRenderbuffers(2)
+        frame = GL.glGenFramebuffers(1)
+        GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, frame)
+        for buffer, kind, place in (
+            (colour, GL.GL_RGBA8, GL.GL_COLOR_ATTACHMENT0),
+            (depth, GL.GL_DEPTH_COMPONENT24, GL.GL_DEPTH_ATTACHMENT),
+        ):
+            GL.glBindRenderbuffer(GL.GL_RENDERBUFFER, buffer)
+            GL.glRenderbufferStorage(GL.GL_RENDERBUFFER, kind, width, height)
+            GL.glFramebufferRenderbuffer(GL.GL_DRAW_FRAMEBUFFER, place, GL.GL_RENDERBUFFER, buffer)
+        return int(colour), int(depth), int(frame)
+
+
+def _context() -> Any:
+    """Return this thread's EGL context, made on first use and kept until the thread ends."""
+    if not hasattr(_contexts, "platform"):
+        try:
+            device = egl.get_device_by_index(int(os.environ.get("EGL_DEVICE_ID", "0")))
+            platform = egl.EGLPlatform(1, 1, device=device)
+            platform.init_context()
+        except Exception as error:
+            # No vendor: ValueError("Invalid device ID (0)"); no driver: EGLError EGL_NOT_INITIALIZED.
+            raise MissingGLError(_NO_GL.format(reason=f"{type(error).__name__}: {error}".splitlines()[0])) from error
+        _contexts.platform = platform
+    _contexts.platform.make_current()
+    return _contexts.platform
+
+
+def gl_renderer() -> str:
+    """Return the name of the GL renderer that draws here, for `emogen doctor`.
+
+    Raises:
+        MissingGLError: no usable OpenGL on this machine.
+    """
+    _context()
+    return ctypes.string_at(GL.glGetString(GL.GL_RENDERER)).decode()

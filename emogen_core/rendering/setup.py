@@ -1,0 +1,65 @@
+"""Which renderer, which rig, which look: the one place where they are put together."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from emogen_core.errors import InvalidInputError, expected
+from emogen_core.face.bundled import load_bundled_rig
+from emogen_core.face.rig_file import load_rig
+from emogen_core.rendering.look import load_look, topology_hash
+from emogen_core.rendering.plain import plain_look
+
+if TYPE_CHECKING:
+    from emogen_core.face.rig import Rig
+    from emogen_core.rendering.look import Look
+    from emogen_core.rendering.protocol import Renderer
+
+BACKENDS = ("pyrender", "software")
+BUNDLED_LOOK = Path(__file__).parent / "data" / "head.look"
+
+
+def bundled_look() -> Look:
+    """Load the look that comes with the package.
+
+    Raises:
+        RigFileError: the file is missing or damaged.
+    """
+    return load_look(BUNDLED_LOOK)
+
+
+def look_for(rig: Rig) -> Look:
+    """Return the bundled look where it fits a rig, else one in flat colours."""
+    if BUNDLED_LOOK.is_file():
+        look = bundled_look()
+        if topology_hash(rig) == look.topology:
+            return look
+    return plain_look(rig)
+
+
+def make_renderer(backend: str, rig: Path | None = None, look: Path | None = None) -> tuple[Renderer, Rig]:
+    """Make a renderer in this thread.
+
+    Args:
+        backend: ``pyrender`` or, only when asked for by name, ``software``.
+        rig: rig file; the bundled one by default.
+        look: look file; by default what `look_for` finds.
+
+    Raises:
+        InvalidInputError: unknown backend, or rig and look do not fit.
+        MissingGLError: ``pyrender`` on a machine without OpenGL.
+        RigFileError: a file is missing or damaged.
+    """
+    if backend not in BACKENDS:
+        raise InvalidInputError(f"backend: {expected(f'one of {BACKENDS}', backend)}")
+    model = load_rig(rig) if rig else load_bundled_rig()
+    dressed = load_look(look) if look else look_for(model)
+    if backend == "software":
+        from emogen_core.rendering.software import SoftwareRenderer  # noqa: PLC0415
+
+        return SoftwareRenderer(model, dressed), model
+    # Importing the backend opens the GL libraries, which need not be there.
+    from emogen_core.rendering.pyrender_backend import PyrenderRenderer  # noqa: PLC0415
+
+    return PyrenderRenderer(model, dressed), model

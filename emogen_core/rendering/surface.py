@@ -1,0 +1,156 @@
+"""From weights to what the graphics card reads: positions, normals and shading attributes of every render vertex.
+
+One interleaved float32 row a render vertex, in the order that the shaders expect:
+position (3), normal (3), texture (2), light (2: sight of the key light, translucency), tint (4).
+On skin the tint is (occlusion, skin, gloss, wrinkle activation), on eyeballs (lid shadow, 0, 0, 0).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy import sparse
+
+from emogen_core.face.evaluate import vertices
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from numpy.typing import NDArray
+
+    from emogen_core.face.rig import Rig
+    from emogen_core.rendering.look import Look
+
+POSITION, NORMAL, TEXTURE, LIGHT, TINT = slice(0, 3), slice(3, 6), slice(6, 8), slice(8, 10), slice(10, 14)
+COLUMNS = 14
+# Between lips at rest it is dark; how dark the inside of a closed mouth is.
+_CLOSED_MOUTH = 0.22
+# How dark an eyeball is right under the upper lid, and over what part of its radius the shadow runs out.
+_LID_SHADOW, _LID_REACH = 0.34, 0.34
+
+
+class Surface:
+    """Computes render vertices of faces of one rig in one look."""
+
+    def __init__(self, rig: Rig, look: Look) -> None:
+        """Prepare for a rig.
+
+        Raises:
+            InvalidInputError: the look was made for another topology.
+        """
+        look.check(rig)
+        self.rig, self.look = rig, look
+        self._normals = NormalField(rig.triangles, rig.offsets.shape[1])
+        names = {name: i for i, name in enumerate(rig.shape_names)}
+        self._wrinkle_gains = [_gains(drivers, names) for drivers in look.wrinkle_drivers]
+        self._mouth_gain = _gains(look.mouth_drivers, names)
+        self._creased = np.flatnonzero(look.wrinkle_masks.any(axis=1))
+        self._masks = np.ascontiguousarray(look.wrinkle_masks[self._creased].T)
+        self._templates: dict[str, dict[str, NDArray[np.float32]]] = {}
+
+    def faces(self, identity: str, weights: NDArray[np.float32]) -> Iterator[dict[str, NDArray[np.float32]]]:
+        """Yield layer name -> (R, 14) float32 rows for each face of a (B, K) batch.
+
+        Raises:
+            InvalidInputError: bad weights, or an identity that the rig does not have.
+        """
+        for mesh, alpha in zip(vertices(self.rig, identity, weights), weights, strict=True):
+            yield self.dress(identity, alpha, mesh, self._normals(mesh))
+
+    def normals(self, mesh: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Return the (N, 3) unit normals of an (N, 3) mesh."""
+        return self._normals(mesh)
+
+    def dress(
+        self, identity: str, alpha: NDArray[np.float32], mesh: NDArray[np.float32], normals: NDArray[np.float32]
+    ) -> dict[str, NDArray[np.float32]]:
+        """Return layer name -> (R, 14) float32 rows of one face, from its (K,) weights, mesh and normals."""
+        rows = {name: template.copy() for name, template in self._template(identity).items()}
+        for name, layer in self.look.layers.items():
+            rows[name][:, POSITION] = mesh[layer.source]
+            rows[name][:, NORMAL] = normals[layer.source]
+        self._open_mouth(rows["skin"], alpha)
+        self._crease(rows["skin"], identity, alpha)
+        if "eyes" in rows and self.look.lids:
+            self._shade_eyes(rows["eyes"], mesh)
+        return rows
+
+    def _template(self, identity: str) -> dict[str, NDArray[np.float32]]:
+        if identity not in self._templates:
+            self._templates[identity] = dict(self._blank(identity))
+        return self._templates[identity]
+
+    def _blank(self, identity: str) -> Iterator[tuple[str, NDArray[np.float32]]]:
+        for name, layer in self.look.layers.items():
+            rows = np.zeros((len(layer.source), COLUMNS), np.float32)
+            rows[:, TEXTURE] = layer.uv
+            rows[:, 8], rows[:, 10], rows[:, 11:13] = 1, 1, layer.surface[:, :2]
+            if name == "skin":
+                bake = self.look.bakes[self.look.style(identity).bake]
+                rows[:, 10], rows[:, LIGHT] = bake[:, 0], bake[:, 1:]
+            yield name, rows
+
+    def _open_mouth(self, rows: NDArray[np.float32], alpha: NDArray[np.float32]) -> None:
+        opening = min(1.0, float(alpha @ self._mouth_gain))
+        inside = self.look.layers["skin"].surface[:, 2]
+        rows[:, 10] *= 1 - inside * (1 - _CLOSED_MOUTH) * (1 - opening)
+
+    def _crease(self, rows: NDArray[np.float32], identity: str, alpha: NDArray[np.float32]) -> None:
+        strength = self.look.style(identity).wrinkles
+        smooth = np.ones(len(self._creased), np.float32)
+        for gain, mask in zip(self._wrinkle_gains, self._masks, strict=True):
+            active = strength * min(1.0, max(0.0, float(alpha @ gain)))
+            if active:
+                smooth *= 1 - active * mask
+        rows[self._creased, 13] = 1 - smooth
+
+    def _shade_eyes(self, rows: NDArray[np.float32], mesh: NDArray[np.float32]) -> None:
+        for side, chosen in (("left", rows[:, 0] > 0), ("right", rows[:, 0] <= 0)):
+            upper, lower = mesh[self.look.lids[f"{side}_upper"]], mesh[self.look.lids[f"{side}_lower"]]
+            points = rows[chosen, :2]
+            radius = np.ptp(points[:, 0]) / 2
+            below = np.interp(points[:, 0], upper[:, 0], upper[:, 1]) - points[:, 1]
+            above = points[:, 1] - np.interp(points[:, 0], lower[:, 0], lower[:, 1])
+            light = _LID_SHADOW + (1 - _LID_SHADOW) * _smooth(below / (_LID_REACH * radius))
+            rows[chosen, 10] = light * (0.72 + 0.28 * _smooth(above / (0.16 * radius)))
+
+
+class NormalField:
+    """Area-weighted vertex normals by one sparse product."""
+
+    def __init__(self, triangles: NDArray[np.int32], vertex_count: int) -> None:
+        """Take (T, 3) triangles over ``vertex_count`` vertices."""
+        count = len(triangles)
+        entries = np.ones(3 * count, np.float32)
+        columns = np.repeat(np.arange(count), 3)
+        self._a, self._b, self._c = (np.ascontiguousarray(column) for column in triangles.T)
+        self._incidence = sparse.csr_array((entries, (triangles.ravel(), columns)), shape=(vertex_count, count))
+
+    def __call__(self, mesh: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Return (N, 3) float32 unit normals of (N, 3) vertices; zero where a vertex has no area around it."""
+        corner = mesh[self._a]
+        first, second = (mesh[self._b] - corner).T, (mesh[self._c] - corner).T
+        faces = np.empty((len(corner), 3), np.float32)
+        faces[:, 0] = first[1] * second[2] - first[2] * second[1]
+        faces[:, 1] = first[2] * second[0] - first[0] * second[2]
+        faces[:, 2] = first[0] * second[1] - first[1] * second[0]
+        normals: NDArray[np.float32] = self._incidence @ faces
+        length = np.sqrt(np.einsum("ij,ij->i", normals, normals))
+        normals /= np.maximum(length, 1e-12)[:, None]
+        return normals
+
+
+def _gains(drivers: Mapping[str, float], names: Mapping[str, int]) -> NDArray[np.float32]:
+    gains = np.zeros(len(names), np.float32)
+    for name, gain in drivers.items():
+        if name in names:
+            gains[names[name]] = gain
+    return gains
+
+
+def _smooth(t: NDArray[Any]) -> NDArray[Any]:
+    """Return smoothstep of t between 0 and 1."""
+    clipped = np.clip(t, 0, 1)
+    smooth: NDArray[Any] = clipped * clipped * (3 - 2 * clipped)
+    return smooth

@@ -1,0 +1,70 @@
+"""One drawing process of the pool: `python -m emogen_core.rendering.worker FD BACKEND RIG LOOK`.
+
+It speaks over one inherited socket: first ("ready", None) or ("failed", kind, sentence), then for every
+(identity, (B, K) weights, settings) it answers ("drawn", [PNG, ...]) or ("failed", kind, sentence). It ends when the
+socket closes, so it never outlives its pool.
+"""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+from multiprocessing.connection import Connection
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from emogen_core.errors import EmogenError, MissingGLError
+from emogen_core.rendering.png import encode_png
+from emogen_core.rendering.protocol import RenderSettings
+from emogen_core.rendering.setup import make_renderer
+
+if TYPE_CHECKING:
+    from emogen_core.rendering.protocol import Renderer
+
+
+def main(arguments: list[str]) -> None:
+    """Serve one pool until its end of the socket closes."""
+    socket = Connection(int(arguments[0]))
+    try:
+        renderer = _start(*arguments[1:])
+    except Exception as error:
+        socket.send(_failure(error))
+        return
+    socket.send(("ready", None))
+    _serve(socket, renderer)
+
+
+def _start(backend: str, rig: str, look: str) -> Renderer:
+    if ":" in backend:
+        module, name = backend.split(":")
+        renderer: Renderer = getattr(import_module(module), name)()
+        return renderer
+    renderer, known = make_renderer(backend, Path(rig) if rig else None, Path(look) if look else None)
+    weights = np.zeros((1, len(known.shape_names)), np.float32)
+    renderer.draw(known.identities[0], weights, RenderSettings())
+    return renderer
+
+
+def _serve(socket: Connection, renderer: Renderer) -> None:
+    while True:
+        try:
+            identity, weights, settings = socket.recv()
+        except EOFError:
+            return
+        try:
+            pictures = renderer.draw(identity, weights, settings)
+            answer: tuple[Any, ...] = ("drawn", [encode_png(picture) for picture in pictures])
+        except Exception as error:
+            answer = _failure(error)
+        socket.send(answer)
+
+
+def _failure(error: Exception) -> tuple[str, str, str]:
+    kind = "gl" if isinstance(error, MissingGLError) else "input" if isinstance(error, EmogenError) else "bug"
+    return "failed", kind, str(error) if kind != "bug" else f"{type(error).__name__}: {error}"
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
