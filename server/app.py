@@ -9,7 +9,7 @@ from fastapi import FastAPI
 from starlette.staticfiles import StaticFiles
 
 from .assets import asset
-from .routes import errors, health, pages, participant, portraits
+from .routes import admin, admin_studies, api, errors, health, pages, participant, portraits
 from .routes.guard import Guard
 from .texts.pages import Pages
 
@@ -30,7 +30,7 @@ def create_app(house: House) -> FastAPI:
     app.state.house = house
     app.state.pages = Pages(asset("templates"))
     errors.install(app)
-    for room in (participant, pages, portraits, health):
+    for room in (participant, pages, portraits, api, admin, admin_studies, health):
         app.include_router(room.router)
     app.mount("/static", StaticFiles(directory=asset("static")), name="static")
     app.add_middleware(Guard, settings=house.settings)

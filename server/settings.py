@@ -25,9 +25,12 @@ class Settings(BaseSettings):
         default="",
         description="Public address, for links that are printed. With https, cookies are Secure and HSTS is sent.",
     )
+    behind_proxy: bool = Field(
+        default=False, description="Whether a reverse proxy in front says the scheme and address of the client."
+    )
     render_workers: int = Field(default=0, ge=0, le=64, description="Drawing processes; 0 means one a core.")
-    renderer: Literal["pyrender", "numpy"] = Field(
-        default="pyrender", description="What draws portraits; numpy needs no OpenGL and is slow and plain."
+    renderer: Literal["pyrender", "software"] = Field(
+        default="pyrender", description="What draws portraits; software needs no OpenGL and is slow and plain."
     )
     portrait_wait_seconds: float = Field(
         default=20.0,

@@ -14,7 +14,7 @@ def small_rig(seed: int = 7, genes: int = 8) -> Rig:
     names = [f"g{i}" for i in range(genes)]
     pairs = [(f"{name}L", f"{name}R") if i % 2 else (name,) for i, name in enumerate(names)]
     core = tuple(member for pair in pairs for member in pair)
-    combinations = (Combination("c01", (core[0], core[1])), Combination("c02", (core[0], core[3])))
+    combinations = (Combination("c01", ("g0", "g1")), Combination("c02", ("g0", "g3")))
     made = tuple(
         Gene(
             name, pair, (f"AU{i + 1}",), "mouth" if i < genes - 1 else "gaze",

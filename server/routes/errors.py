@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
-from starlette.responses import HTMLResponse, JSONResponse, Response
+from starlette.responses import HTMLResponse, JSONResponse, RedirectResponse, Response
 
 from ..services.errors import (
     ConflictError,
@@ -20,11 +20,13 @@ from ..services.errors import (
     UnauthorisedError,
     UnavailableError,
 )
-from ..texts.pages import Pages
+from .desk import page
 
 if TYPE_CHECKING:
     from fastapi import FastAPI
     from starlette.requests import Request
+
+    from ..texts.pages import Pages
 
 STATUS: dict[type[ServiceError], int] = {
     NotFoundError: 404,
@@ -64,12 +66,27 @@ def error_body(status: int, **details: Any) -> dict[str, Any]:
 
 def answer(request: Request, status: int, body: dict[str, Any], headers: dict[str, str] | None = None) -> Response:
     """Return an error as JSON, or as a page to a browser that asked for one."""
+    if request.url.path.startswith("/admin"):
+        return _admin(status, body, headers)
     if wants_page(request):
         pages: Pages = request.app.state.pages
         problem = PROBLEMS.get(status, "wrong")
         html = pages.render("error.html", "en", problem=problem, reload=request.url.path)
         return HTMLResponse(html, status, headers)
     return JSONResponse(body, status, headers)
+
+
+def status_of(error: ServiceError) -> int:
+    """Return the HTTP status of a refusal."""
+    return next((code for kind, code in STATUS.items() if isinstance(error, kind)), 400)
+
+
+def _admin(status: int, body: dict[str, Any], headers: dict[str, str] | None) -> Response:
+    if status == 401:
+        return RedirectResponse("/admin/login", 303)
+    response = page("error", status, message=body["error"]["message"])
+    response.headers.update(headers or {})
+    return response
 
 
 def wants_page(request: Request) -> bool:
@@ -80,7 +97,7 @@ def wants_page(request: Request) -> bool:
 async def _service(request: Request, error: Exception) -> Response:
     if not isinstance(error, ServiceError):
         raise error
-    status = next((code for kind, code in STATUS.items() if isinstance(error, kind)), 400)
+    status = status_of(error)
     wait = getattr(error, "retry_after", None)
     headers = {"Retry-After": str(wait)} if wait is not None else {}
     if status == 401:

@@ -11,6 +11,7 @@ from starlette.responses import JSONResponse, RedirectResponse, Response
 
 from ..services.answer_bodies import AnswerBody, EventsBody, StopBody
 from .access import Services
+from .api import bearer
 from .forms import answer_from, fields
 
 router = APIRouter()
@@ -18,9 +19,18 @@ router = APIRouter()
 
 @router.post("/s/{link}", response_model=None)
 async def join(link: str, request: Request, house: Services) -> Response:
-    """Take a place in a study."""
-    form = {name: values[-1] for name, values in fields(await request.body()).items()}
-    joined = await run(house.joining.join, link, {**request.query_params, **form})
+    """Take a place in a study; with a token for simulations it is marked as simulated and may name its `seed`."""
+    given = {name: values[-1] for name, values in fields(await request.body()).items()}
+    secret = bearer(request)
+    if secret is not None:
+        await run(house.tokens.check, secret, "simulate")
+    joined = await run(
+        house.joining.join,
+        link,
+        {**request.query_params, **given},
+        simulated=secret is not None,
+        seed=request.query_params.get("seed") if secret else None,
+    )
     response: Response
     if "application/json" in request.headers.get("accept", ""):
         response = JSONResponse({"token": joined.token, "address": joined.address}, 201)

@@ -59,7 +59,8 @@ class Answers:
             reply = walk.state()
             runs.add(tx, _answer(walk, body, reply))
             following = self.journal.portraits.following(walk)
-        self.journal.portraits.after(walk.sketches(), following)
+        if not participation.simulated:
+            self.journal.portraits.after(walk.sketches(), following)
         return reply
 
 

@@ -8,13 +8,17 @@ from typing import TYPE_CHECKING
 from ..store import studies
 from ..store.engine import Database
 from ..store.migrate import upgrade
+from .accounts import Accounts
 from .answers import Answers
+from .export import Exports
 from .joining import Joining
 from .journal import Journal
 from .participation import Participations
 from .portrait_files import PortraitFiles
 from .portraits import Portraits
+from .replay import Replay
 from .studies import Studies
+from .tokens import Tokens
 
 if TYPE_CHECKING:
     from emogen_core.face.rig import Rig
@@ -33,6 +37,10 @@ class House:
     answers: Answers
     participations: Participations
     studies: Studies
+    accounts: Accounts
+    tokens: Tokens
+    exports: Exports
+    replay: Replay
 
     @property
     def database(self) -> Database:
@@ -57,9 +65,7 @@ class House:
 
 def build_house(settings: Settings, rig: Rig, drawer: PortraitDrawer) -> House:
     """Migrate the database and return all services."""
-    settings.data_dir.mkdir(parents=True, exist_ok=True)
-    upgrade(settings.url)
-    database = Database(settings.url)
+    database = open_database(settings)
     files = PortraitFiles(settings.data_dir / "portraits")
     portraits = Portraits(drawer, files, database, settings.portrait_memory_mb * 2**20)
     journal = Journal(database, rig, portraits)
@@ -70,4 +76,15 @@ def build_house(settings: Settings, rig: Rig, drawer: PortraitDrawer) -> House:
         Answers(journal),
         Participations(journal),
         Studies(journal),
+        Accounts(database, settings.session_hours, settings.login_attempts),
+        Tokens(database),
+        Exports(database),
+        Replay(journal),
     )
+
+
+def open_database(settings: Settings) -> Database:
+    """Return the database, brought to the present tables."""
+    settings.data_dir.mkdir(parents=True, exist_ok=True)
+    upgrade(settings.url)
+    return Database(settings.url)

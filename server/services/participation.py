@@ -10,6 +10,7 @@ from ..store.runs_tables import Event
 from .clock import digest, new_id, now
 from .config import StudyConfig  # a dataclass field
 from .errors import InvalidError, NotFoundError
+from .evolution import unpack_weights
 from .journal import config_of
 from .steps import Walk
 
@@ -83,6 +84,11 @@ class Participations:
     def new_answer_id(self) -> str:
         """Return an id for the answer of a page without script."""
         return new_id()
+
+    def weights(self, ids: Sequence[str]) -> dict[str, list[float]]:
+        """Return the weights of faces by id, for simulated participants; unknown ids are left out."""
+        with self.journal.database.read() as tx:
+            return {face.id: unpack_weights(face.weights).tolist() for face in runs.faces(tx, ids)}
 
     def events(self, token: str, events: Sequence[EventBody]) -> int:
         """Store what the page saw, each event once; return how many were new.

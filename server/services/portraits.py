@@ -13,6 +13,8 @@ from concurrent.futures import CancelledError, Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
+from emogen_core.errors import EmogenError
+
 from ..store import runs
 from .errors import NotFoundError, UnavailableError
 from .evolution import Sketch, settings_of, unpack_weights
@@ -169,7 +171,7 @@ class Portraits:
     def _submit(self, sketch: Sketch, priority: int) -> Future[bytes]:
         try:
             return self._drawer.submit(sketch.identity, sketch.weights, sketch.settings, priority)
-        except RuntimeError as error:
+        except EmogenError as error:
             raise UnavailableError("Portraits cannot be drawn at the moment. Try again in a few seconds.", 5) from error
 
     def _watch(self, key: str, job: _Job) -> None:

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from .journal import Journal
 
 
+DEMO_ID = "demo"
+
+
 @dataclass(frozen=True, slots=True)
 class StudySummary:
     """A study in a list: who is where."""
@@ -40,7 +43,7 @@ class Studies:
 
     journal: Journal
 
-    def create(self, config: StudyConfig, status: str = "recruiting") -> StudySummary:
+    def create(self, config: StudyConfig, status: str = "recruiting", study_id: str | None = None) -> StudySummary:
         """Store a study, its first version and a general link to it.
 
         Raises:
@@ -48,7 +51,7 @@ class Studies:
         """
         self.check(config)
         created = now()
-        study = Study(id=secrets.token_hex(8), title=config.title, status=status, created_at=created)
+        study = Study(id=study_id or secrets.token_hex(8), title=config.title, status=status, created_at=created)
         version = StudyVersion(
             id=new_id(),
             study_id=study.id,
@@ -83,7 +86,9 @@ class Studies:
         """Store the demonstration study, on the heads that this face model has."""
         known = tuple(name for name in DEMO.identities if name in self.journal.rig.identities)
         identities = known or self.journal.rig.identities[:1]
-        return self.create(DEMO.model_copy(update={"identities": identities}))
+        with self.journal.database.read() as tx:
+            free = studies.study(tx, DEMO_ID) is None
+        return self.create(DEMO.model_copy(update={"identities": identities}), study_id=DEMO_ID if free else None)
 
     def ensure_one(self) -> StudySummary | None:
         """Store the demonstration study when there is no study at all."""

@@ -20,6 +20,17 @@ def participation_by_token(tx: Tx, token_hash: str, *, lock: bool = False) -> Pa
     return tx.scalar(query.with_for_update() if lock else query)
 
 
+def participation(tx: Tx, participation_id: str) -> Participation | None:
+    """Return a participation."""
+    return tx.get(Participation, participation_id)
+
+
+def participation_ids(tx: Tx, study_id: str) -> Sequence[str]:
+    """Return the participations of a study in the order of their arrival."""
+    query = select(Participation.id).where(Participation.study_id == study_id).order_by(Participation.number)
+    return tx.scalars(query).all()
+
+
 def participation_by_withdrawal(tx: Tx, code: str) -> Participation | None:
     """Return the participation that has this withdrawal code."""
     return tx.scalar(select(Participation).where(Participation.withdrawal_code == code).with_for_update())

@@ -1,0 +1,84 @@
+"""The drawing processes as the portraits' drawer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from emogen_core.errors import RenderingError
+from emogen_core.face.bundled import load_bundled_rig
+from emogen_core.rendering.keys import portrait_key
+from emogen_core.rendering.pool import Priority, RenderPool
+from emogen_core.rendering.setup import look_for
+
+from .house import House, build_house
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from emogen_core.rendering.protocol import RenderSettings
+
+    from ..settings import Settings
+
+
+@dataclass(frozen=True)
+class PoolDrawer:
+    """Draws in the processes of a pool, under keys of one rig and look."""
+
+    pool: RenderPool
+    rig_hash: str
+    look_hash: str
+
+    def key(self, identity: str, weights: NDArray[np.float32], settings: RenderSettings) -> str:
+        """Return the content key of a portrait."""
+        return portrait_key(self.rig_hash, self.look_hash, identity, weights, settings)
+
+    def submit(
+        self, identity: str, weights: NDArray[np.float32], settings: RenderSettings, priority: int
+    ) -> Future[bytes]:
+        """Have a portrait drawn."""
+        return self.pool.submit(identity, weights, settings, Priority(priority))
+
+    def close(self) -> None:
+        """End the drawing processes."""
+        self.pool.close()
+
+
+@dataclass(frozen=True)
+class NoDrawer:
+    """Knows the keys and draws nothing, for work that nobody looks at."""
+
+    rig_hash: str
+    look_hash: str
+
+    def key(self, identity: str, weights: NDArray[np.float32], settings: RenderSettings) -> str:
+        """Return the content key of a portrait."""
+        return portrait_key(self.rig_hash, self.look_hash, identity, weights, settings)
+
+    def submit(self, *_: object) -> Future[bytes]:
+        """Refuse."""
+        raise RenderingError("this process draws no portraits")
+
+    def close(self) -> None:
+        """Do nothing."""
+
+
+def open_house(settings: Settings, *, drawing: bool = True) -> House:
+    """Return all services on the bundled rig, with drawing processes running unless told otherwise.
+
+    Raises:
+        EmogenError: this machine cannot draw, or the rig is damaged; one sentence says what to do.
+    """
+    rig = load_bundled_rig()
+    look = look_for(rig)
+    if not drawing:
+        return build_house(settings, rig, NoDrawer(rig.hash, look.hash))
+    pool = RenderPool(settings.render_workers or None, settings.renderer)
+    try:
+        return build_house(settings, rig, PoolDrawer(pool, rig.hash, look.hash))
+    except BaseException:
+        pool.close()
+        raise
