@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from fastapi import APIRouter
-from starlette.requests import Request  # noqa: TC002  # FastAPI reads it at run time
+from starlette.requests import Request  # FastAPI reads it at run time
 from starlette.responses import HTMLResponse, Response
 
 from ..services.participation import study_words
 from ..texts.views import page_values, template_of
-from .access import Services  # noqa: TC001
+from .access import Services
 from .participant import cookie_of
 
 if TYPE_CHECKING:
