@@ -9,12 +9,15 @@ from fastapi import FastAPI
 from starlette.staticfiles import StaticFiles
 
 from .assets import asset
-from .routes import admin, admin_studies, api, errors, health, pages, participant, portraits
+from .routes import admin, admin_studies, api, errors, health, pages, participant, plain_forms, portraits
 from .routes.guard import Guard
 from .texts.pages import Pages
 
 if TYPE_CHECKING:
     from .services.house import House
+
+
+ROUTERS = tuple(room.router for room in (participant, plain_forms, pages, portraits, api, admin, admin_studies, health))
 
 
 def create_app(house: House) -> FastAPI:
@@ -30,8 +33,8 @@ def create_app(house: House) -> FastAPI:
     app.state.house = house
     app.state.pages = Pages(asset("templates"))
     errors.install(app)
-    for room in (participant, pages, portraits, api, admin, admin_studies, health):
-        app.include_router(room.router)
+    for router in ROUTERS:
+        app.include_router(router)
     app.mount("/static", StaticFiles(directory=asset("static")), name="static")
     app.add_middleware(Guard, settings=house.settings)
     return app

@@ -57,7 +57,7 @@ async def withdraw(study: str, me: Me, form: OwnForm, house: Services) -> Respon
     """Erase the participant who has a withdrawal code."""
     problem, erased = None, False
     try:
-        await run(house.participations.withdraw, form.get("code", ""))
+        await run(house.participations.withdraw, form.get("code", ""), study, me.user)
         erased = True
     except NotFoundError as error:
         problem = error.message

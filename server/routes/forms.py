@@ -13,19 +13,25 @@ from ..services.errors import InvalidError
 _PLAIN = ("id", "kind", "trial", "attempt", "generation", "elite")
 
 
-def fields(body: bytes) -> dict[str, list[str]]:
+Fields = dict[str, list[str]]
+
+
+def fields(body: bytes) -> Fields:
     """Return the fields of a form.
 
     Raises:
         InvalidError: the body is not a form.
     """
     try:
-        return parse_qs(body.decode(), keep_blank_values=True, max_num_fields=200)
+        parsed = parse_qs(body.decode(), keep_blank_values=True, max_num_fields=200)
+        if any("\0" in value for values in parsed.values() for value in values):
+            raise ValueError("NUL")
+        return parsed
     except ValueError as error:
         raise InvalidError("The form could not be read.", field="body", expected="an encoded form") from error
 
 
-def answer_from(body: bytes) -> AnswerBody:
+def answer_from(given: Fields) -> AnswerBody:
     """Return the answer that a form stands for.
 
     A form says `given`, `selected` (several) and `elite` or `best`, and one field a rating question.
@@ -33,7 +39,6 @@ def answer_from(body: bytes) -> AnswerBody:
     Raises:
         InvalidError: a field is missing or wrong.
     """
-    given = fields(body)
     try:
         return ANSWER.validate_python(_plain(given))
     except ValidationError as error:
@@ -47,7 +52,7 @@ def answer_from(body: bytes) -> AnswerBody:
         ) from error
 
 
-def _plain(given: dict[str, list[str]]) -> dict[str, Any]:
+def _plain(given: Fields) -> dict[str, Any]:
     plain: dict[str, Any] = {name: given[name][-1] for name in _PLAIN if given.get(name)}
     kind = plain.get("kind")
     if kind == "consent":
@@ -55,9 +60,9 @@ def _plain(given: dict[str, list[str]]) -> dict[str, Any]:
     elif kind == "choice":
         plain["selected"] = given.get("selected", [])
         if "elite" not in plain:
-            best = given.get("best") or plain["selected"][:1]
-            plain["elite"] = best[-1] if best else ""
+            only = plain["selected"] if len(plain["selected"]) == 1 else []
+            plain["elite"] = (given.get("best") or only or ["none"])[-1]
     elif kind == "rating":
-        skipped = {*_PLAIN, "given"}
+        skipped = {*_PLAIN, "given", "csrf"}
         plain["values"] = {name: values[-1] for name, values in given.items() if name not in skipped}
     return plain

@@ -79,7 +79,7 @@ class Guard:
     async def _body(self, scope: Scope, receive: Receive) -> list[bytes] | int:
         """Return the whole body, or the status of its refusal: nothing behind this reads more than the limit."""
         length = Headers(scope=scope).get("content-length", "0")
-        if not length.isdigit():
+        if not length.isdigit() or "\0" in scope["path"]:
             return 400
         if int(length) > self._limit:
             return 413

@@ -12,7 +12,7 @@ from starlette.responses import JSONResponse, RedirectResponse, Response
 from ..services.answer_bodies import AnswerBody, EventsBody, StopBody
 from .access import Services
 from .api import bearer
-from .forms import answer_from, fields
+from .forms import fields
 
 router = APIRouter()
 
@@ -52,14 +52,6 @@ def answer(token: str, body: AnswerBody, house: Services) -> dict[str, Any]:
     return house.answers.take(token, body)
 
 
-@router.post("/p/{token}/answers/form", response_model=None)
-async def answer_form(token: str, request: Request, house: Services) -> Response:
-    """Take an answer from a plain form."""
-    body = answer_from(await request.body())
-    await run(house.answers.take, token, body)
-    return RedirectResponse(f"/p/{token}", 303)
-
-
 @router.post("/p/{token}/events")
 def events(token: str, body: EventsBody, house: Services) -> dict[str, int]:
     """Store what the page saw."""
@@ -70,14 +62,6 @@ def events(token: str, body: EventsBody, house: Services) -> dict[str, int]:
 def stop(token: str, body: StopBody, house: Services) -> dict[str, Any]:
     """Stop taking part."""
     return house.participations.stop(token, erase=body.erase)
-
-
-@router.post("/p/{token}/stop/form", response_model=None)
-async def stop_form(token: str, request: Request, house: Services) -> Response:
-    """Stop taking part, from a plain form."""
-    wish = fields(await request.body()).get("erase", ["false"])[-1]
-    await run(house.participations.stop, token, erase=wish == "true")
-    return RedirectResponse(f"/p/{token}", 303)
 
 
 def remember(response: Response, link: str, token: str, *, secure: bool) -> None:

@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
 
 Milliseconds = Annotated[float, Field(ge=0, le=1e10, allow_inf_nan=False)]
 Pixels = Annotated[float, Field(ge=0, le=100_000, allow_inf_nan=False)]
-Identifier = Annotated[str, Field(min_length=1, max_length=64)]
+Identifier = Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]{1,64}$")]
 
 
 class _Body(BaseModel):
@@ -32,9 +32,9 @@ class Client(_Body):
     """What the participant saw the faces on."""
 
     viewport: tuple[Pixels, Pixels] | None = None
-    pixel_ratio: Annotated[float, Field(gt=0, le=20)] | None = None
+    pixel_ratio: Annotated[float, Field(gt=0, le=20, allow_inf_nan=False)] | None = None
     tile: tuple[Pixels, Pixels] | None = None
-    input: Annotated[str, Field(max_length=20)] | None = None
+    input: Annotated[str, Field(pattern=r"^[a-z_-]{1,20}$")] | None = None
 
 
 class _AnswerBody(_Body):

@@ -130,6 +130,7 @@ def _consent(walk: Walk, body: ConsentAnswer) -> None:
 
 
 def _choice(walk: Walk, body: ChoiceAnswer) -> None:
+    walk.check_rig()
     trial = walk.trial()
     faces = {face.id: face for face in runs.faces_on_screen(walk.tx, trial)}
     _check_choice(walk.bounds(trial), faces, body)

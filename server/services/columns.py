@@ -157,3 +157,18 @@ TABLES: dict[str, tuple[Column, ...]] = {
         _time("arrived_at", "When it arrived at the server."),
     ),
 }
+
+
+def markdown() -> str:
+    """Return the tables as they stand in docs/export.md."""
+    return "\n\n".join(_markdown(table, columns) for table, columns in TABLES.items())
+
+
+def _markdown(table: str, columns: tuple[Column, ...]) -> str:
+    lines = [f"## {table}", "", "| column | type | unit | meaning |", "| --- | --- | --- | --- |"]
+    lines += [f"| `{_shown(column)}` | {column.type} | {column.unit} | {column.help} |" for column in columns]
+    return "\n".join(lines)
+
+
+def _shown(column: Column) -> str:
+    return column.name if column.family is None else f"{column.name}NAME"

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..store import runs
 from ..store.runs_tables import Event
+from .accounts import audit
 from .clock import digest, new_id, now
 from .config import StudyConfig  # a dataclass field
 from .errors import InvalidError, NotFoundError
@@ -123,18 +124,19 @@ class Participations:
             tx.flush()
             return walk.state()
 
-    def withdraw(self, code: str) -> str:
-        """Erase the participation that has a withdrawal code; return its id.
+    def withdraw(self, code: str, study_id: str, user: str | None = None) -> str:
+        """Erase the participation of a study that has a withdrawal code; return its id.
 
         Raises:
             NotFoundError: unknown code.
         """
         with self.journal.database.write() as tx:
             participation = runs.participation_by_withdrawal(tx, code.strip().upper())
-            if participation is None:
+            if participation is None or participation.study_id != study_id:
                 raise NotFoundError("No participation has this withdrawal code. Check that it was typed as a whole.")
             config = config_of(tx, participation.version_id)
             _erase(Walk(tx, participation, config, self.journal.evolution(config)))
+            audit(tx, user, "erase participation", participation.id)
             return participation.id
 
 

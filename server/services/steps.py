@@ -58,13 +58,33 @@ class Walk:
         self.offer(trial, self.evolution.begin(trial, 0))
 
     def offer(self, trial: Trial, state: State) -> None:
-        """Put the ten faces of a search state on the screen."""
+        """Put the ten faces of a search state on the screen.
+
+        Raises:
+            ConflictError: the face model was exchanged since this participation began.
+        """
+        self.check_rig()
         generation, faces = self.evolution.offer(trial, state)
         runs.add(self.tx, generation)
         runs.add_all(self.tx, faces)
         trial.attempt, trial.generation = state.attempt, state.generation
         trial.state = self.evolution.dump(state)
         self.offered.extend(faces)
+
+    def check_rig(self) -> None:
+        """Refuse to go on with another face model than the one that this participation began with.
+
+        Raises:
+            ConflictError: it was exchanged.
+        """
+        if self.participation.rig_hash != self.evolution.rig.hash:
+            raise ConflictError(
+                "The faces of this study were renewed while you took part, so it cannot go on. "
+                "Your answers are kept; please tell whoever invited you.",
+                field="rig",
+                expected=self.participation.rig_hash,
+                got=self.evolution.rig.hash,
+            )
 
     def sketches(self) -> list[tuple[str, Sketch]]:
         """Return the faces that were offered, ready to be drawn."""
