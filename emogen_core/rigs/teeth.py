@@ -26,6 +26,8 @@ LOWER_WIDTHS = (5.4, 5.9, 6.9, 7.0, 7.1, 11.0)
 _ACROSS = np.array([-1.0, -0.86, -0.55, -0.2, 0.2, 0.55, 0.86])
 # Gum to tip is 0..1, tip to inside 1..2. Above 0.34 the strip would stand out of the cheek.
 _DOWN = np.array([0.34, 0.44, 0.52, 0.60, 0.72, 0.84, 0.94, 1.0, 1.12, 1.4, 2.0])
+# Side teeth stand this far further in, millimetres, or they shine through the corners of closed lips.
+_CORRIDOR = 1.6
 
 
 def tooth_strip(
@@ -45,9 +47,10 @@ def tooth_strip(
     arc, tooth, across = _columns(widths)
     spline = _spline(mesh.canonical()[helper[2]], arc)
     outward = np.linalg.norm(spline @ (mesh.canonical()[helper[2]] - mesh.canonical()[helper[0]]), axis=1)
+    setback = np.clip((np.abs(arc) / arc[-1] - 0.45) / 0.3, 0, 1)
     weights = np.zeros((len(_DOWN), len(arc), len(mesh.vertices)))
     for row, down in enumerate(_DOWN):
-        step = _step(across, down) / outward
+        step = (_step(across, down) - _CORRIDOR * setback) / outward
         for source, part in zip(helper, _profile(down, step), strict=True):
             weights[row][:, source] += part[:, None] * spline
     surface = [np.stack([tooth, across, np.full(len(arc), down)], 1) for down in _DOWN]

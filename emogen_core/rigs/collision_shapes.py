@@ -1,0 +1,70 @@
+"""The eight collision correctives (EmoGen 2021, section III-A): four zones along the lips, four in front of the teeth.
+
+Zones overlap smoothly and sum to one along the mouth. A lip zone parts the lips (upper lip up, lower lip down), a
+teeth zone moves the lower lip outward; both fade into the skin. At the corners of the mouth up and down cancel.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from emogen_core.rigs.canvas import smoothstep
+from emogen_core.rigs.lips import lip_gaps, near_line
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from emogen_core.rigs.head_mesh import HeadGeometry
+
+ZONES = ("OuterLeft", "InnerLeft", "InnerRight", "OuterRight")
+COLLISION_SHAPES = tuple(f"{kind}{zone}" for kind in ("lips", "teeth") for zone in ZONES)
+LIP_MILLIMETRES = 5.0
+TEETH_MILLIMETRES = 8.0
+
+_CENTRES = (18.0, 6.0, -6.0, -18.0)
+_FADE = (3.0, 17.0)
+_LIP_DEPTH = 9.0
+
+
+def collision_offsets(
+    geometry: HeadGeometry, low: NDArray[np.float64], neutral: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the (8, N, 3) offsets of `COLLISION_SHAPES` on a sealed neutral, millimetres."""
+    fade = 1 - smoothstep(_away(geometry, low, neutral), *_FADE)
+    offsets = np.zeros((len(COLLISION_SHAPES), len(neutral), 3))
+    for zone, weight in enumerate(_zone_weights(neutral[:, 0])):
+        offsets[zone, :, 1] = LIP_MILLIMETRES * (1 - 2 * low) * fade * weight
+        offsets[zone + len(ZONES), :, 2] = TEETH_MILLIMETRES * low * fade * weight
+    return offsets
+
+
+def mouth_regions(
+    geometry: HeadGeometry, low: NDArray[np.float64], neutral: NDArray[np.float64]
+) -> dict[str, NDArray[np.int32]]:
+    """Return the vertices of the lips (outside and in) and of the front teeth, for detecting collisions."""
+    near = _away(geometry, low, neutral) < _LIP_DEPTH
+    regions = {"lip_upper": near & (low < 0.5), "lip_lower": near & (low >= 0.5)}
+    for jaw in ("teeth_upper", "teeth_lower"):
+        front = np.zeros(len(neutral), bool)
+        front[geometry.part_vertices(jaw)] = True
+        regions[jaw] = front & (np.abs(neutral[:, 0]) < 24) & (geometry.surface[:, 2] <= 1)
+    return {name: np.flatnonzero(mask).astype(np.int32) for name, mask in regions.items()}
+
+
+def _away(geometry: HeadGeometry, low: NDArray[np.float64], neutral: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return (N,) distance from the line where the lips meet; infinite off the skin and the mouth."""
+    flesh = geometry.part_vertices("skin", "mouth")
+    away = np.full(len(neutral), np.inf)
+    away[flesh] = near_line(neutral[flesh], lip_gaps(geometry, low, neutral)[1])
+    return away
+
+
+def _zone_weights(x: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return (4, N) smooth weights that sum to one."""
+    spread = _CENTRES[0] - _CENTRES[1]
+    clipped = np.clip(x, _CENTRES[-1], _CENTRES[0])
+    steps = np.clip(np.abs(clipped[None] - np.array(_CENTRES)[:, None]) / spread, 0, 1)
+    weights: NDArray[np.float64] = (1 + np.cos(np.pi * steps)) / 2
+    return weights
