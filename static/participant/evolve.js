@@ -162,7 +162,7 @@ class Evolve {
     this.outbox.onwaiting = null;
     const { trial } = state;
     if (trial?.id !== firstState.trial.id) {
-      await this.events.flush({ leaving: true });
+      this.events.flush({ leaving: true });
       return location.replace(address);
     }
     if (recovered) this.status.say(say("online"), "mark");
