@@ -90,8 +90,8 @@ class Look:
             translucency.
         wrinkle_masks: (R, G) float32, where each wrinkle group shows on the skin layer.
         wrinkle_drivers: for each group, shape name -> gain.
-        mouth_drivers: shape name -> how much that shape opens the mouth.
-        lids: ``left_upper``, ``left_lower``, ``right_upper``, ``right_lower`` -> rig vertices of the lid's edge, by x.
+        edges: ``left_upper``, ``left_lower``, ``right_upper``, ``right_lower`` (lids), ``mouth_upper``, ``mouth_lower``
+            (inner edges of the lips) -> rig vertices, by x. May be empty: then eyes and mouth have no moving shadow.
     """
 
     name: str
@@ -103,8 +103,7 @@ class Look:
     bakes: Mapping[str, NDArray[np.float32]]
     wrinkle_masks: NDArray[np.float32]
     wrinkle_drivers: tuple[Mapping[str, float], ...] = ()
-    mouth_drivers: Mapping[str, float] = field(default_factory=dict)
-    lids: Mapping[str, NDArray[np.int32]] = field(default_factory=dict)
+    edges: Mapping[str, NDArray[np.int32]] = field(default_factory=dict)
     hash: str = ""
 
     def style(self, identity: str) -> Style:
@@ -137,7 +136,6 @@ def save_look(path: Path, look: Look) -> str:
         "default": look.default,
         "styles": {name: _style_document(style) for name, style in look.styles.items()},
         "wrinkle_drivers": [dict(drivers) for drivers in look.wrinkle_drivers],
-        "mouth_drivers": dict(look.mouth_drivers),
     }
     arrays: dict[str, NDArray[Any]] = {"wrinkle_masks": _bytes(look.wrinkle_masks)}
     for name, layer in look.layers.items():
@@ -147,7 +145,7 @@ def save_look(path: Path, look: Look) -> str:
         arrays[f"layers/{name}/surface"] = _bytes(layer.surface)
     arrays |= {f"textures/{name}": data for name, data in look.textures.items()}
     arrays |= {f"bakes/{name}": _bytes(bake) for name, bake in look.bakes.items()}
-    arrays |= {f"lids/{name}": rows for name, rows in look.lids.items()}
+    arrays |= {f"edges/{name}": rows for name, rows in look.edges.items()}
     return write_container(path, KIND, VERSION, document, arrays)
 
 
@@ -169,8 +167,7 @@ def load_look(path: Path) -> Look:
             bakes={name: _floats(bake) for name, bake in _folder(arrays, "bakes").items()},
             wrinkle_masks=_floats(arrays["wrinkle_masks"]),
             wrinkle_drivers=tuple(document["wrinkle_drivers"]),
-            mouth_drivers=document["mouth_drivers"],
-            lids=_folder(arrays, "lids"),
+            edges=_folder(arrays, "edges"),
             hash=digest,
         )
     except (KeyError, TypeError) as error:

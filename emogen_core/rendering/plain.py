@@ -50,7 +50,6 @@ def plain_look(rig: Rig) -> Look:
         textures={"plain": _palette(names)},
         bakes={"plain": np.tile(np.array([1, 1, 0], np.float32), (count, 1))},
         wrinkle_masks=np.zeros((count, 0), np.float32),
-        mouth_drivers={"jawOpen": 2.0},
         hash="plain",
     )
 

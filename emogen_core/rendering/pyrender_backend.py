@@ -147,7 +147,9 @@ class PyrenderRenderer:
 
     def _texture(self, kind: str, name: str) -> Any:
         if (kind, name) not in self._textures:
-            sampler = pyrender.Sampler(magFilter=GL.GL_LINEAR, minFilter=GL.GL_LINEAR_MIPMAP_NEAREST)
+            # Blending between mipmaps costs too much on skin; on eyeballs their seams would show.
+            reduced = GL.GL_LINEAR_MIPMAP_NEAREST if kind == "skin" else GL.GL_LINEAR_MIPMAP_LINEAR
+            sampler = pyrender.Sampler(magFilter=GL.GL_LINEAR, minFilter=reduced)
             pixels = self._look.texture(name, "RGBA").copy()
             if kind == "skin" and "relief" in self._look.textures:
                 pixels[..., 3] = self._look.texture("relief", "L")

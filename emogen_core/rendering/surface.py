@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 POSITION, NORMAL, TEXTURE, LIGHT, TINT = slice(0, 3), slice(3, 6), slice(6, 8), slice(8, 10), slice(10, 14)
 COLUMNS = 14
-# Between lips at rest it is dark; how dark the inside of a closed mouth is.
-_CLOSED_MOUTH = 0.22
+# Between lips at rest it is dark: how dark, and by how many millimetres they part until light gets in.
+_CLOSED_MOUTH, _OPEN_MOUTH = 0.20, 3.5
 # How dark an eyeball is right under the upper lid, and over what part of its radius the shadow runs out.
 _LID_SHADOW, _LID_REACH = 0.34, 0.34
 
@@ -44,7 +44,7 @@ class Surface:
         self._normals = NormalField(rig.triangles, rig.offsets.shape[1])
         names = {name: i for i, name in enumerate(rig.shape_names)}
         self._wrinkle_gains = [_gains(drivers, names) for drivers in look.wrinkle_drivers]
-        self._mouth_gain = _gains(look.mouth_drivers, names)
+        self._rest: dict[str, float] = {}
         self._creased = np.flatnonzero(look.wrinkle_masks.any(axis=1))
         self._masks = np.ascontiguousarray(look.wrinkle_masks[self._creased].T)
         self._templates: dict[str, dict[str, NDArray[np.float32]]] = {}
@@ -70,9 +70,10 @@ class Surface:
         for name, layer in self.look.layers.items():
             rows[name][:, POSITION] = mesh[layer.source]
             rows[name][:, NORMAL] = normals[layer.source]
-        self._open_mouth(rows["skin"], alpha)
+        if "mouth_upper" in self.look.edges:
+            self._light_mouth(rows["skin"], identity, mesh)
         self._crease(rows["skin"], identity, alpha)
-        if "eyes" in rows and self.look.lids:
+        if "eyes" in rows and "left_upper" in self.look.edges:
             self._shade_eyes(rows["eyes"], mesh)
         return rows
 
@@ -91,10 +92,17 @@ class Surface:
                 rows[:, 10], rows[:, LIGHT] = bake[:, 0], bake[:, 1:]
             yield name, rows
 
-    def _open_mouth(self, rows: NDArray[np.float32], alpha: NDArray[np.float32]) -> None:
-        opening = min(1.0, float(alpha @ self._mouth_gain))
+    def _light_mouth(self, rows: NDArray[np.float32], identity: str, mesh: NDArray[np.float32]) -> None:
+        if identity not in self._rest:
+            self._rest[identity] = self._gap(self.rig.neutral(identity))
+        opening = float(_smooth(np.array((self._gap(mesh) - self._rest[identity]) / _OPEN_MOUTH)))
         inside = self.look.layers["skin"].surface[:, 2]
         rows[:, 10] *= 1 - inside * (1 - _CLOSED_MOUTH) * (1 - opening)
+
+    def _gap(self, mesh: NDArray[np.float32]) -> float:
+        """Return how far the inner edges of the lips are apart, millimetres, where that is most."""
+        upper, lower = mesh[self.look.edges["mouth_upper"]], mesh[self.look.edges["mouth_lower"]]
+        return float((upper[:, 1] - np.interp(upper[:, 0], lower[:, 0], lower[:, 1])).max())
 
     def _crease(self, rows: NDArray[np.float32], identity: str, alpha: NDArray[np.float32]) -> None:
         strength = self.look.style(identity).wrinkles
@@ -107,7 +115,7 @@ class Surface:
 
     def _shade_eyes(self, rows: NDArray[np.float32], mesh: NDArray[np.float32]) -> None:
         for side, chosen in (("left", rows[:, 0] > 0), ("right", rows[:, 0] <= 0)):
-            upper, lower = mesh[self.look.lids[f"{side}_upper"]], mesh[self.look.lids[f"{side}_lower"]]
+            upper, lower = mesh[self.look.edges[f"{side}_upper"]], mesh[self.look.edges[f"{side}_lower"]]
             points = rows[chosen, :2]
             radius = np.ptp(points[:, 0]) / 2
             below = np.interp(points[:, 0], upper[:, 0], upper[:, 1]) - points[:, 1]

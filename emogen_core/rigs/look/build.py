@@ -1,0 +1,224 @@
+"""From the bundled rig and the CC0 sources to `head.look`."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from PIL import Image
+from scipy.spatial import cKDTree
+
+from emogen_core.rendering.look import Layer, Look, Style, save_look, topology_hash
+from emogen_core.rigs.head_mesh import build_geometry
+from emogen_core.rigs.look import eyes, wrinkles
+from emogen_core.rigs.look.atlas import SKIN_PARTS, build_atlas
+from emogen_core.rigs.look.bake import bake
+from emogen_core.rigs.look.canvas import make_canvas, sample_mask, step
+from emogen_core.rigs.look.presets import ALIASES, Preset, presets
+from emogen_core.rigs.look.skin import mean_tone, paint_skin
+from emogen_core.rigs.look.zones import make_zones
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from emogen_core.face.rig import Rig
+    from emogen_core.rigs.head_mesh import HeadGeometry
+    from emogen_core.rigs.look.atlas import Atlas
+    from emogen_core.rigs.look.canvas import Canvas
+    from emogen_core.rigs.source import Source
+
+PAINTED, SHIPPED = 2048, 1024
+_QUALITY = 90
+
+
+def build_look(  # noqa: PLR0913 - the last three by keyword
+    rig: Rig,
+    source: Source,
+    path: Path,
+    *,
+    only: Sequence[str] | None = None,
+    painted: int = PAINTED,
+    progress: Callable[[str], None] = lambda _: None,
+) -> Look:
+    """Paint and bake the bundled head's look and store it.
+
+    Args:
+        rig: the bundled rig.
+        source: the CC0 data that the rig was built from.
+        path: the file to write.
+        only: presets to paint, by identity; all by default. Identities left out wear the first one's style.
+        painted: size at which textures are painted before they are reduced.
+        progress: is told what is being done.
+
+    Returns:
+        The look as stored, with its hash.
+    """
+    progress("laying out")
+    geometry = build_geometry(source)
+    lips, ears = (_mask(source, name) for name in ("lips", "ears"))
+    gloss = _gloss(geometry, lips)
+    atlas = build_atlas(geometry, gloss)
+    canvas = make_canvas(geometry, atlas, painted)
+    zones = make_zones(canvas, lips, ears, _rim_distance(geometry, canvas), _canvas_occlusion(rig, atlas, canvas))
+    chosen = [preset for preset in presets() if only is None or preset.name in only]
+    skins, styles = {}, {}
+    for preset in chosen:
+        progress(f"painting {preset.name}")
+        picture = paint_skin(canvas, zones, preset)
+        skins[f"skin-{preset.name}"] = _webp(picture)
+        styles[preset.name] = _style(preset, mean_tone(canvas, picture))
+    progress("tracing light")
+    baked = {name: _relaxed(bake(rig, name), atlas, geometry, lips) for name in styles}
+    for alias, name in ALIASES.items():
+        if name in styles:
+            styles[alias] = replace(styles[name], bake=alias)
+            baked[alias] = _relaxed(bake(rig, alias), atlas, geometry, lips)
+    place = (geometry.positions[atlas.layers["skin"].source] / 100).astype(np.float32)
+    on_skin = atlas.layers["skin"].surface[:, :1] == 1
+    look = Look(
+        name="emogen head",
+        topology=topology_hash(rig),
+        layers=atlas.layers,
+        styles=styles,
+        default=next(iter(ALIASES)) if next(iter(ALIASES)) in styles else chosen[0].name,
+        textures={**skins, **_shared(canvas, chosen)},
+        bakes=baked,
+        wrinkle_masks=wrinkles.masks(place) * on_skin,
+        wrinkle_drivers=wrinkles.drivers(),
+        edges=_edges(geometry),
+    )
+    return replace(look, hash=save_look(path, look))
+
+
+def _mask(source: Source, name: str) -> NDArray[np.float32]:
+    with Image.open(io.BytesIO(source.read(f"mpfb2/textures/mpfb_{name}.jpg"))) as picture:
+        return np.asarray(picture.convert("L"), np.float32) / np.float32(255)
+
+
+def _style(preset: Preset, tone: tuple[float, float, float]) -> Style:
+    red, green, blue = (round(c / 255 * (0.75 if not preset.old else 0.6), 4) for c in preset.brow)
+    return Style(
+        skin=f"skin-{preset.name}",
+        eyes=_eye_name(preset),
+        lashes=f"lashes-{preset.sex}",
+        bake=preset.name,
+        tone=tone,
+        lash=(red, green, blue),
+        wrinkles=1.0 if preset.old else 0.5,
+        shine=0.80 if preset.old else 1.0,
+    )
+
+
+def _eye_name(preset: Preset) -> str:
+    return f"eyes-{preset.name}"
+
+
+def _shared(canvas: Canvas, chosen: list[Preset]) -> dict[str, NDArray[np.uint8]]:
+    relief = Image.fromarray(wrinkles.relief(canvas)).resize((SHIPPED, SHIPPED), Image.Resampling.BOX)
+    textures = {"relief": _packed(relief, "PNG", optimize=True)}
+    for preset in chosen:
+        textures[_eye_name(preset)] = _packed(Image.fromarray(eyes.paint_eye(preset)), "WEBP", quality=_QUALITY)
+        lashes = Image.fromarray(eyes.paint_lashes(male=preset.male))
+        textures[f"lashes-{preset.sex}"] = _packed(lashes, "PNG", optimize=True)
+    return textures
+
+
+def _webp(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    small = Image.fromarray(picture).resize((SHIPPED, SHIPPED), Image.Resampling.BOX)
+    return _packed(small, "WEBP", quality=_QUALITY, method=6)
+
+
+def _packed(picture: Image.Image, kind: str, **options: Any) -> NDArray[np.uint8]:
+    buffer = io.BytesIO()
+    picture.save(buffer, kind, **options)
+    return np.frombuffer(buffer.getvalue(), np.uint8)
+
+
+def _vertex_uv(geometry: HeadGeometry) -> NDArray[np.float32]:
+    """Return (N, 2): one of the texture coordinates in base.obj's layout of every skin vertex."""
+    rows = slice(*geometry.parts["skin"])
+    uv = np.zeros((len(geometry.positions), 2), np.float32)
+    uv[geometry.triangles[rows].ravel()] = geometry.corner_uv[rows].reshape(-1, 2)
+    return uv
+
+
+def _gloss(geometry: HeadGeometry, lips: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return (N,): lips, nose and forehead shine, the scalp and the neck hardly."""
+    x, y, z = (geometry.positions / 100).T
+    nose = np.exp(-((x / 0.14) ** 2 + ((y + 0.30) / 0.20) ** 2))
+    forehead = np.exp(-((x / 0.40) ** 2 + ((y - 0.42) / 0.22) ** 2))
+    cheek = np.exp(-(((np.abs(x) - 0.42) / 0.20) ** 2 + ((y + 0.22) / 0.16) ** 2))
+    face = 0.42 + 0.22 * nose + 0.12 * forehead + 0.10 * cheek
+    gloss = np.where(z > -0.6, face, 0.35) * step(y, -1.5, -1.1)
+    lip = sample_mask(lips, _vertex_uv(geometry)) * (y < -0.4)
+    gloss = np.maximum(gloss, 0.72 * lip)
+    inside = geometry.part_vertices(*(name for name in SKIN_PARTS if name != "skin"))
+    only_inside = np.setdiff1d(inside, geometry.part_vertices("skin"))
+    gloss[only_inside] = 1.0
+    return np.asarray(gloss.clip(0, 1), np.float32)
+
+
+def _relaxed(
+    light: NDArray[np.float32], atlas: Atlas, geometry: HeadGeometry, lips: NDArray[np.float32]
+) -> NDArray[np.float32]:
+    """Return (R, 3) baked light, lifted where it would look like dirt or make-up: lips, upper lids, teeth."""
+    source = atlas.layers["skin"].source
+    x, y, z = (geometry.positions[source] / 100).T
+    light = light[source].copy()
+    skin = atlas.layers["skin"].surface[:, 0] == 1
+    lip = sample_mask(lips, atlas.body_uv) * skin
+    sulcus = np.exp(-(((np.abs(x) - 0.30) / 0.17) ** 2 + ((y - 0.075) / 0.055) ** 2)) * skin * (z > -0.3)
+    for column, of_lips, of_sulcus in ((0, 0.60, 0.55), (1, 0.60, 0.62)):
+        lift = 1 - (1 - of_lips * lip) * (1 - of_sulcus * sulcus)
+        light[:, column] += (1 - light[:, column]) * lift
+    kind = atlas.layers["skin"].surface[:, 0]
+    deep, teeth = kind < 0.85, kind < 0.2
+    light[deep, 0] = 0.22 + 0.78 * light[deep, 0]
+    light[teeth, 0] = 0.42 + 0.58 * light[teeth, 0]
+    light[deep, 1] = np.maximum(light[deep, 1], 0.45 * light[deep, 0])
+    return light
+
+
+def _rim_distance(geometry: HeadGeometry, canvas: Canvas) -> NDArray[np.float32]:
+    """Return (M,) distance to the vertices shared by skin and sockets, decimetres."""
+    rim = np.intersect1d(geometry.part_vertices("skin"), geometry.part_vertices("sockets"))
+    distance, _ = cKDTree(geometry.positions[rim] / 100).query(canvas.place, distance_upper_bound=0.2, workers=-1)
+    return np.asarray(np.minimum(distance, 0.2), np.float32)
+
+
+def _canvas_occlusion(rig: Rig, atlas: Atlas, canvas: Canvas) -> NDArray[np.float32]:
+    """Return (M,) occlusion of the default identity at the texels, by the nearest of the layer's vertices."""
+    layer: Layer = atlas.layers["skin"]
+    light = bake(rig, rig.identities[0])[layer.source, 0]
+    uv = np.column_stack([canvas.at % canvas.size + 0.5, canvas.size - canvas.at // canvas.size - 0.5]) / canvas.size
+    distance, nearest = cKDTree(layer.uv).query(uv, k=3, workers=-1)
+    weight = 1 / np.maximum(distance, 1e-5)
+    return np.asarray((light[nearest] * weight).sum(1) / weight.sum(1), np.float32)
+
+
+def _edges(geometry: HeadGeometry) -> dict[str, NDArray[np.int32]]:
+    """Return the edges of lids and lips, by x: vertices that the skin shares with what lies behind it."""
+    lids, lips = (
+        np.intersect1d(geometry.part_vertices("skin"), geometry.part_vertices(part)) for part in ("sockets", "mouth")
+    )
+    x = geometry.positions[:, 0]
+    return {
+        **_split(geometry, "left", lids[x[lids] > 0]),
+        **_split(geometry, "right", lids[x[lids] < 0]),
+        **_split(geometry, "mouth", lips),
+    }
+
+
+def _split(geometry: HeadGeometry, name: str, rim: NDArray[np.intp]) -> dict[str, NDArray[np.int32]]:
+    """Cut a closed rim at the line between its corners."""
+    places = geometry.positions[rim]
+    ends = places[[places[:, 0].argmin(), places[:, 0].argmax()]]
+    level = np.interp(places[:, 0], ends[:, 0], ends[:, 1])
+    order = np.argsort(places[:, 0], kind="stable")
+    halves = {"upper": places[:, 1] >= level - 1e-9, "lower": places[:, 1] <= level + 1e-9}
+    return {f"{name}_{half}": rim[order][chosen[order]].astype(np.int32) for half, chosen in halves.items()}
