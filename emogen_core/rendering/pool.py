@@ -25,6 +25,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from emogen_core.errors import EmogenError, InvalidInputError, MissingGLError, RenderingError, expected
+from emogen_core.rendering.keys import portrait_key
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -99,6 +100,7 @@ class RenderPool:
         self._closed = False
         self._number = 0
         self._workers: list[_Worker] = []
+        self._hashes = "", ""
         self._start(count)
         self._threads = [
             threading.Thread(target=self._keep, args=(worker,), name=f"render-{i}", daemon=True)
@@ -112,7 +114,7 @@ class RenderPool:
         identity: str,
         weights: NDArray[np.float32],
         settings: RenderSettings,
-        priority: Priority = Priority.NOW,
+        priority: int = Priority.NOW,
     ) -> Future[bytes]:
         """Have one face drawn.
 
@@ -135,6 +137,11 @@ class RenderPool:
             heapq.heappush(self._queue, _Job(priority, self._number, identity, alpha, settings, result))
             self._wake.notify()
         return result
+
+    def key(self, identity: str, weights: NDArray[np.float32], settings: RenderSettings) -> str:
+        """Return the content key (SHA-256, hexadecimal) of the portrait that `submit` would give for the same face."""
+        rig, look = self._hashes
+        return portrait_key(rig, f"{look}/{self._command[0]}", identity, weights, settings)
 
     def close(self) -> None:
         """End all workers; faces not drawn yet fail with `RenderingError`. Never waits for a worker."""
@@ -167,7 +174,7 @@ class RenderPool:
             for _ in range(count):
                 self._workers.append(_Worker(self._command))
             for worker in self._workers:
-                worker.wait_ready(deadline - time.monotonic())
+                self._hashes = worker.wait_ready(deadline - time.monotonic())
         except BaseException as error:
             for worker in self._workers:
                 worker.kill(for_good=True)
@@ -257,8 +264,12 @@ class _Worker:
     def alive(self) -> bool:
         return self.process.poll() is None
 
-    def wait_ready(self, seconds: float) -> None:
-        _raise_failure(self._receive(seconds))
+    def wait_ready(self, seconds: float) -> tuple[str, str]:
+        """Wait until it has drawn its first face; return the hashes of its rig and look."""
+        answer = self._receive(seconds)
+        _raise_failure(answer)
+        rig, look = answer[1]
+        return rig, look
 
     def draw(self, jobs: list[_Job], seconds: float) -> tuple[Any, ...]:
         assert self._socket is not None

@@ -38,8 +38,8 @@ def look_for(rig: Rig) -> Look:
     return plain_look(rig)
 
 
-def make_renderer(backend: str, rig: Path | None = None, look: Path | None = None) -> tuple[Renderer, Rig]:
-    """Make a renderer in this thread.
+def make_renderer(backend: str, rig: Path | None = None, look: Path | None = None) -> tuple[Renderer, Rig, Look]:
+    """Make a renderer in this thread; return it with the rig and the look that it draws.
 
     Args:
         backend: ``pyrender`` or, only when asked for by name, ``software``.
@@ -58,8 +58,8 @@ def make_renderer(backend: str, rig: Path | None = None, look: Path | None = Non
     if backend == "software":
         from emogen_core.rendering.software import SoftwareRenderer  # noqa: PLC0415
 
-        return SoftwareRenderer(model, dressed), model
+        return SoftwareRenderer(model, dressed), model, dressed
     # Importing the backend opens the GL libraries, which need not be there.
     from emogen_core.rendering.pyrender_backend import PyrenderRenderer  # noqa: PLC0415
 
-    return PyrenderRenderer(model, dressed), model
+    return PyrenderRenderer(model, dressed), model, dressed

@@ -1,6 +1,6 @@
 """One drawing process of the pool: `python -m emogen_core.rendering.worker FD BACKEND RIG LOOK`.
 
-It speaks over one inherited socket: first ("ready", None) or ("failed", kind, sentence), then for every
+It speaks over one inherited socket: first ("ready", (rig hash, look hash)) or ("failed", kind, sentence), then for every
 (identity, (B, K) weights, settings) it answers ("drawn", [PNG, ...]) or ("failed", kind, sentence). It ends when the
 socket closes, so it never outlives its pool.
 """
@@ -28,23 +28,22 @@ def main(arguments: list[str]) -> None:
     """Serve one pool until its end of the socket closes."""
     socket = Connection(int(arguments[0]))
     try:
-        renderer = _start(*arguments[1:])
+        renderer, hashes = _start(*arguments[1:])
     except Exception as error:
         socket.send(_failure(error))
         return
-    socket.send(("ready", None))
+    socket.send(("ready", hashes))
     _serve(socket, renderer)
 
 
-def _start(backend: str, rig: str, look: str) -> Renderer:
+def _start(backend: str, rig: str, look: str) -> tuple[Renderer, tuple[str, str]]:
     if ":" in backend:
         module, name = backend.split(":")
-        renderer: Renderer = getattr(import_module(module), name)()
-        return renderer
-    renderer, known = make_renderer(backend, Path(rig) if rig else None, Path(look) if look else None)
+        return getattr(import_module(module), name)(), ("", "")
+    renderer, known, worn = make_renderer(backend, Path(rig) if rig else None, Path(look) if look else None)
     weights = np.zeros((1, len(known.shape_names)), np.float32)
     renderer.draw(known.identities[0], weights, RenderSettings())
-    return renderer
+    return renderer, (known.hash, worn.hash)
 
 
 def _serve(socket: Connection, renderer: Renderer) -> None:
