@@ -15,6 +15,7 @@ from server.services.config import Emotion, StudyConfig
 from server.services.house import build_house
 from server.settings import Settings
 from tests.rig_factory import small_rig
+from tests.server.postgres import fresh, running
 
 PIXEL = base64.b64decode("iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGM4CQAAywDKWvQYfgAAAABJRU5ErkJggg==")
 
@@ -69,9 +70,29 @@ def rig():
     return small_rig()
 
 
+BOTH = pytest.mark.parametrize("backend", ["sqlite", "postgresql"])
+
+
+@pytest.fixture(scope="session")
+def postgres():
+    with running() as place:
+        yield place
+
+
 @pytest.fixture
-def settings(tmp_path):
-    return Settings(data_dir=tmp_path / "var", base_url="http://testserver")
+def backend():
+    """Where the tests of a house keep their data; `BOTH` runs a test on each."""
+    return "sqlite"
+
+
+@pytest.fixture
+def database_url(backend, request):
+    return fresh(request.getfixturevalue("postgres")) if backend == "postgresql" else ""
+
+
+@pytest.fixture
+def settings(tmp_path, database_url):
+    return Settings(data_dir=tmp_path / "var", base_url="http://testserver", database_url=database_url)
 
 
 @pytest.fixture

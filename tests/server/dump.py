@@ -1,4 +1,4 @@
-from sqlalchemy import select
+from sqlalchemy import select  # noqa: TID251
 
 from server.store.tables import METADATA
 

@@ -1,6 +1,9 @@
 """The main line over HTTP: join, consent, instructions, practice, trials, ratings, completion."""
 
+from tests.conftest import BOTH
 from tests.server.walker import Walker
+
+pytestmark = BOTH
 
 
 def test_whole_participation(client, study):
