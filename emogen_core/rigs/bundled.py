@@ -12,10 +12,10 @@ from emogen_core.rigs.canvas import make_canvas, unit
 from emogen_core.rigs.collision_shapes import COLLISION_SHAPES, collision_offsets, mouth_regions
 from emogen_core.rigs.combinations import Deriver, choose_pairs
 from emogen_core.rigs.emotion_sets import EMOTION_SETS
+from emogen_core.rigs.fitting import LID_GENES, Head, fitted_lids, gene_offsets, sealed_shapes
 from emogen_core.rigs.gene_table import RECIPES
 from emogen_core.rigs.head_mesh import build_geometry
 from emogen_core.rigs.identities import IDENTITIES, blend_vertices, fit
-from emogen_core.rigs.lids import closing_weight
 from emogen_core.rigs.lips import seal_lips
 from emogen_core.rigs.source import open_source
 from emogen_core.rigs.units import core_shapes
@@ -37,6 +37,8 @@ NAME = "emogen-head"
 # The head on which correctives are derived, and whose lids the unadjusted offsets fit.
 DEFAULT = "female"
 
+# Differences below this, millimetres, are not worth storing.
+_SEEN = 0.02
 _INACTIVE = frozenset({"lateral", "disabled"})
 
 
@@ -57,13 +59,14 @@ def build_rig(source: Path, out_path: Path) -> Rig:
     geometry = build_geometry(data)
     canvas = make_canvas(data, geometry.mesh)
     low = np.asarray(geometry.operator @ canvas.low, np.float64)
-    neutrals = neutral_meshes(data, geometry, low)
-    core = core_shapes(data, geometry, canvas)
-    closures = fit_closures(geometry, neutrals, core)
-    deriver = Deriver(geometry, neutrals[DEFAULT], _shut(data, geometry, canvas))
-    pairs = choose_pairs(deriver, gene_offsets(core), _inactive())
-    combined = {pair.combination.name: _derive(deriver, pair, gene_offsets(core)) for pair in pairs}
-    collision = collision_offsets(geometry, low, neutrals[DEFAULT])
+    heads = make_heads(data, geometry, low)
+    default = heads[DEFAULT]
+    raw = sealed_shapes(geometry, low, default.neutral, core_shapes(data, geometry, canvas))
+    core = fitted_lids(geometry, default, raw)
+    deriver = Deriver(geometry, _shut(data, geometry, canvas))
+    pairs = choose_pairs(deriver, default, gene_offsets(core), _inactive())
+    combined = {pair.combination.name: deriver.derive(pair, default, gene_offsets(core)) for pair in pairs}
+    collision = collision_offsets(geometry, low, default.neutral)
     offsets = np.concatenate([_stack(core), _stack(combined), collision])
     rig = Rig(
         name=NAME,
@@ -73,37 +76,24 @@ def build_rig(source: Path, out_path: Path) -> Rig:
         collision_shapes=COLLISION_SHAPES,
         emotion_sets=EMOTION_SETS,
         offsets=offsets.astype(np.float32),
-        neutrals={name: mesh.astype(np.float32) for name, mesh in neutrals.items()},
+        neutrals={name: head.neutral.astype(np.float32) for name, head in heads.items()},
         triangles=geometry.triangles,
         parts=geometry.parts,
-        regions=mouth_regions(geometry, low, neutrals[DEFAULT]),
+        regions=mouth_regions(geometry, low, default.neutral),
         mirror=geometry.mirror.astype(np.int32),
-        adjustments=_adjustments(deriver, pairs, core, combined, closures),
+        adjustments=_adjustments(deriver, pairs, heads, raw, core | combined),
     )
     return save_rig(rig, out_path)
 
 
-def neutral_meshes(source: Source, geometry: HeadGeometry, low: NDArray[np.float64]) -> Meshes:
-    """Return identity -> (N, 3) neutral mesh in millimetres, lips sealed; ``low`` as in `seal_lips`."""
-    neutrals = {}
+def make_heads(source: Source, geometry: HeadGeometry, low: NDArray[np.float64]) -> dict[str, Head]:
+    """Return every identity's head, lips sealed; ``low`` as in `seal_lips`."""
+    heads = {}
     for name, blend in IDENTITIES.items():
-        head = fit(geometry.mesh, blend_vertices(source, geometry.mesh, blend))
-        neutrals[name] = seal_lips(geometry, low, geometry.assemble(head.vertices, head.eye_centre))
-    return neutrals
-
-
-def gene_offsets(core: Meshes) -> Meshes:
-    """Return gene -> (N, 3) offsets of all its members."""
-    return {recipe.name: sum((core[m] for m in recipe.members[1:]), core[recipe.members[0]]) for recipe in RECIPES}
-
-
-def fit_closures(geometry: HeadGeometry, neutrals: Meshes, core: Meshes) -> dict[str, float]:
-    """Scale `lidsClose` to shut the default head's eyes; return how much more or less every head needs."""
-    members = ("lidsClose.L", "lidsClose.R")
-    needed = {name: closing_weight(geometry, mesh, core[members[0]]) for name, mesh in neutrals.items()}
-    for member in members:
-        core[member] = core[member] * needed[DEFAULT]
-    return {name: weight / needed[DEFAULT] for name, weight in needed.items()}
+        found = fit(geometry.mesh, blend_vertices(source, geometry.mesh, blend))
+        neutral = seal_lips(geometry, low, geometry.assemble(found.vertices, found.eye_centre))
+        heads[name] = Head(neutral, found.eye_centre)
+    return heads
 
 
 def _shut(source: Source, geometry: HeadGeometry, canvas: Canvas) -> NDArray[np.float64]:
@@ -115,27 +105,26 @@ def _inactive() -> frozenset[str]:
     return frozenset(recipe.name for recipe in RECIPES if recipe.flags & _INACTIVE)
 
 
-def _derive(deriver: Deriver, pair: Pair, genes: Meshes) -> NDArray[np.float64]:
-    first, second = (genes[name] for name in pair.parents)
-    return deriver.corrective(pair.method, first, second)
-
-
 def _adjustments(
-    deriver: Deriver, pairs: Sequence[Pair], core: Meshes, combined: Meshes, closures: Mapping[str, float]
+    deriver: Deriver,
+    pairs: Sequence[Pair],
+    heads: Mapping[str, Head],
+    raw: Meshes,
+    worn_by_default: Meshes,
 ) -> dict[str, Adjustment]:
-    """Return for every head but the default one how its lids' shapes differ, correctives included."""
-    names = (*core, *combined)
-    changed = [pair for pair in pairs if "lidsClose" in pair.parents and pair.method != "cancel"]
-    shapes = [name for name in core if name.startswith("lidsClose")] + [p.combination.name for p in changed]
-    index = np.array([names.index(name) for name in shapes], np.intp)
+    """Return for every head but the default one how the shapes that move its lids differ, correctives included."""
+    names = tuple(worn_by_default)
     found = {}
-    for identity, scale in closures.items():
+    for identity, head in heads.items():
         if identity == DEFAULT:
             continue
-        worn = core | {name: core[name] * scale for name in shapes[:2]}
-        worn |= {pair.combination.name: _derive(deriver, pair, gene_offsets(worn)) for pair in changed}
-        difference = [worn[name] - (core | combined)[name] for name in shapes]
-        found[identity] = Adjustment(index, np.stack(difference).astype(np.float32))
+        worn = fitted_lids(deriver.geometry, head, raw)
+        genes = gene_offsets(worn)
+        worn |= {p.combination.name: deriver.derive(p, head, genes) for p in pairs if set(p.parents) & set(LID_GENES)}
+        changed = {name: offsets - worn_by_default[name] for name, offsets in worn.items()}
+        changed = {name: change for name, change in changed.items() if np.abs(change).max() > _SEEN}
+        index = np.array([names.index(name) for name in changed], np.intp)
+        found[identity] = Adjustment(index, _stack(changed).astype(np.float32))
     return found
 
 

@@ -20,6 +20,7 @@ import numpy as np
 from scipy.sparse import coo_array, csr_array, diags_array
 
 from emogen_core.face.rig import Combination
+from emogen_core.rigs.fitting import LID_GENES, cleared
 from emogen_core.rigs.quality import Gauge
 
 if TYPE_CHECKING:
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from emogen_core.rigs.fitting import Head
     from emogen_core.rigs.head_mesh import HeadGeometry
 
 Method = Literal["max", "two", "cancel", "close"]
@@ -82,43 +84,54 @@ class Pair:
 
 
 class Deriver:
-    """Derives correctives from the genes' own offsets on one head.
+    """Derives correctives from the genes' own offsets on a head, and measures them.
 
     Args:
         geometry: the render mesh.
-        neutral: (N, 3) the head on which gains are measured.
         shut: (N, 3) offsets that shut the lips at `jawOpen` 1 (the unit `mouthClose`).
     """
 
-    def __init__(self, geometry: HeadGeometry, neutral: NDArray[np.float64], shut: NDArray[np.float64]) -> None:
+    def __init__(self, geometry: HeadGeometry, shut: NDArray[np.float64]) -> None:
+        self.geometry = geometry
         self._soft = geometry.part_vertices("skin", "mouth", "sockets", "lashes")
-        flesh = geometry.triangles[: geometry.parts["sockets"][1]]
-        self._mean = _neighbour_mean(flesh, len(neutral))
-        self._neutral = neutral
+        self._flesh = geometry.triangles[: geometry.parts["sockets"][1]]
+        self._mean = _neighbour_mean(self._flesh, len(shut))
         self._shut = shut
-        self._gauge = Gauge(neutral, flesh)
 
-    def corrective(self, method: Method, a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the (N, 3) corrective of two genes' (N, 3) offsets."""
-        if method == "close":
+    def derive(self, pair: Pair, head: Head, genes: Mapping[str, NDArray[np.float64]]) -> NDArray[np.float64]:
+        """Return the (N, 3) corrective of a pair on a head with its genes' (N, 3) offsets."""
+        first, second = (genes[name] for name in pair.parents)
+        if pair.method == "close":
             return self._shut
-        if method == "cancel":
-            return self._on_flesh(-b)
+        if pair.method == "cancel":
+            return self._on_flesh(-second)
+        corrective = self._saturating(first, second, pair.method)
+        if not set(pair.parents) & set(LID_GENES):
+            return corrective
+        both = first + second
+        return self._on_flesh(cleared(self.geometry, head, both + corrective) - both)
+
+    def best(
+        self, parents: tuple[str, str], head: Head, gauge: Gauge, genes: Mapping[str, NDArray[np.float64]]
+    ) -> Pair:
+        """Return the better saturation of a pair, with its gain over adding the two."""
+        added = head.neutral + genes[parents[0]] + genes[parents[1]]
+        before = gauge.damage(added).total
+        methods: tuple[Method, ...] = ("max", "two") if before else ("max",)
+        pairs = [Pair(parents, method, 0) for method in methods]
+        gains = [before - gauge.damage(added + self.derive(pair, head, genes)).total for pair in pairs]
+        best = int(np.argmax(gains))
+        return Pair(parents, methods[best], gains[best])
+
+    def gauge(self, head: Head) -> Gauge:
+        """Return what judges the skin, mouth and sockets of a head."""
+        return Gauge(head.neutral, self._flesh)
+
+    def _saturating(self, a: NDArray[np.float64], b: NDArray[np.float64], method: Method) -> NDArray[np.float64]:
         factor = saturation(a, b, method)
         for _ in range(FACTOR_SMOOTHING):
             factor = self._mean @ factor
         return self._on_flesh((factor - 1)[:, None] * (a + b))
-
-    def best(self, parents: tuple[str, str], a: NDArray[np.float64], b: NDArray[np.float64]) -> Pair:
-        """Return the better saturation of a pair, with its gain over adding the two."""
-        before = self._gauge.damage(self._neutral + a + b).total
-        methods: tuple[Method, Method] = ("max", "two")
-        gains = {
-            method: before - self._gauge.damage(self._neutral + a + b + self.corrective(method, a, b)).total
-            for method in (methods if before else methods[:1])
-        }
-        method = max(gains, key=gains.__getitem__)
-        return Pair(parents, method, gains[method])
 
     def _on_flesh(self, offsets: NDArray[np.float64]) -> NDArray[np.float64]:
         kept = np.zeros_like(offsets)
@@ -135,18 +148,22 @@ def saturation(a: NDArray[np.float64], b: NDArray[np.float64], method: Method) -
     return factor
 
 
-def choose_pairs(deriver: Deriver, genes: Mapping[str, NDArray[np.float64]], skipped: frozenset[str]) -> list[Pair]:
+def choose_pairs(
+    deriver: Deriver, head: Head, genes: Mapping[str, NDArray[np.float64]], skipped: frozenset[str]
+) -> list[Pair]:
     """Return the rules and the pairs that gain most, `KEPT` in all, strongest first after the rules.
 
     Args:
         deriver: derives and measures.
+        head: the head on which gains are measured.
         genes: gene -> (N, 3) offsets of its members together.
         skipped: genes that take no part (lateral, disabled).
     """
     moved = {name: np.linalg.norm(o, axis=1) > OVERLAP_MILLIMETRES for name, o in genes.items() if name not in skipped}
+    gauge = deriver.gauge(head)
     rules = [Pair(parents, method, 0) for parents, method in RULES.items()]
     found = [
-        deriver.best((first, second), genes[first], genes[second])
+        deriver.best((first, second), head, gauge, genes)
         for first, second in combinations(moved, 2)
         if (first, second) not in RULES and (moved[first] & moved[second]).sum() >= OVERLAP_VERTICES
     ]

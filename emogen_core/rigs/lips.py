@@ -52,7 +52,8 @@ def lip_gaps(
     """Return a column's smallest distance between the lips (infinite where none lie above each other), and where.
 
     Returns:
-        (X,) millimetres, negative where the lips are inside each other; (X, 2) height and depth of that place, 0 if none.
+        (X,) millimetres, negative where the lips are inside each other; (X, 2) height and depth of that place,
+        0 if none.
     """
     triangles = geometry.triangles[: geometry.parts["mouth"][1]]
     points = vertices[triangles]
