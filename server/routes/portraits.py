@@ -32,9 +32,13 @@ async def portrait(key: Key, request: Request, house: Services) -> Response:
     if picture is None:
         promise = await run_in_threadpool(house.portraits.request, key)
         picture = await _within(promise, house.settings.portrait_wait_seconds)
-    if key in request.headers.get("if-none-match", ""):
+    if _known(request.headers.get("if-none-match", ""), key):
         return Response(status_code=304, headers=headers)
     return Response(picture, media_type="image/png", headers=headers)
+
+
+def _known(tags: str, key: str) -> bool:
+    return tags.strip() == "*" or key in tags
 
 
 async def _within(promise: Future[bytes], seconds: float) -> bytes:

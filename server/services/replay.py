@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from emogen_core.search import Choice, State, place_order, strategy
 
 from ..store import runs, studies
 from .errors import NotFoundError
-from .evolution import params_of
+from .evolution import params_of, unpack_genes, unpack_weights
 from .journal import config_of
 
 if TYPE_CHECKING:
@@ -118,16 +118,23 @@ class Replay:
             for what in ("slot", "origin", "parents", "genes", "weights"):
                 expected, got = getattr(made, what), getattr(face, what)
                 if expected != got:
-                    return face.slot, what, _short(expected), _short(got)
+                    return face.slot, what, *self._told_apart(what, expected, got)
             if places[face.place - 1] != face.slot:
                 return face.slot, "place", f"{places.index(face.slot) + 1}", f"{face.place}"
         return None
+
+    def _told_apart(self, what: str, expected: Any, got: Any) -> tuple[str, str]:
+        """Return two different values in words; of a vector, its first entry that differs."""
+        if not isinstance(got, bytes) or len(expected) != len(got):
+            return str(expected), str(got)
+        rig = self.journal.rig
+        names, unpack = (rig.gene_names, unpack_genes) if what == "genes" else (rig.shape_names, unpack_weights)
+        size = len(got) // len(names)
+        at = next(i for i in range(len(names)) if expected[i * size :][:size] != got[i * size :][:size])
+        wanted, found = (f"{names[at]} = {unpack(data)[at]!r}" for data in (expected, got))
+        return wanted, found
 
 
 def _told(faces: Sequence[Face], choice: ChoiceRecord) -> Choice:
     slots = {face.id: face.slot for face in faces}
     return Choice(tuple(sorted(slots[face] for face in choice.selected)), slots[choice.elite_face_id])
-
-
-def _short(value: object) -> str:
-    return value.hex()[:64] if isinstance(value, bytes) else str(value)

@@ -6,8 +6,8 @@ import uuid
 import pytest
 from sqlalchemy import func, select  # noqa: TID251
 
-from server.services.errors import StaleStepError
 from server.services.answer_bodies import ANSWER
+from server.services.errors import StaleStepError
 from server.store.runs_tables import Answer, ChoiceRecord, Event, Face, Generation, Participation
 from tests.conftest import BOTH, small_study
 from tests.server.dump import dump
