@@ -9,12 +9,13 @@ from starlette.requests import Request  # FastAPI reads it at run time
 from starlette.responses import HTMLResponse, Response
 
 from ..services.participation import study_words
-from ..texts.views import page_values, template_of
+from ..texts.views import choice_missing, page_values, template_of
 from .access import Services
 from .participant import cookie_of
 
 if TYPE_CHECKING:
     from ..services.joining import Entry
+    from ..texts.catalogue import Catalogue
     from ..texts.pages import Pages
 
 router = APIRouter()
@@ -46,8 +47,17 @@ def step_page(request: Request, house: Services, token: str, status: int = 200, 
     pages: Pages = request.app.state.pages
     language = view.config.language
     values = page_values(pages.catalogue(language), view.state, house.participations.new_answer_id)
+    if again.get("errors") and "trial" in view.state:
+        again["errors"] = _choice_errors(pages.catalogue(language), view.state["trial"], again)
     shared = {"study": view.study, "surround": view.config.surround, "state": view.state, "address": f"/p/{token}"}
     return _page(request, template_of(view.state), language, status, **(shared | values | again))
+
+
+def _choice_errors(words: Catalogue, trial: dict[str, Any], again: dict[str, Any]) -> dict[str, str]:
+    """Say what a choice lacks in the page's own words; what they do not cover keeps the service's sentence."""
+    problem = choice_missing(words, trial, again.get("selected", []), again.get("elite"))
+    errors: dict[str, str] = again["errors"]
+    return {"choice": problem} if problem else errors
 
 
 def _study(found: Entry) -> dict[str, Any]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
 
     from markupsafe import Markup
 
@@ -36,6 +36,19 @@ def page_values(words: Catalogue, state: Mapping[str, Any], new_id: Callable[[],
         outcome = OUTCOMES.get(completion.get("outcome"), "over")
         values |= {"outcome": outcome, "withdrawal_code": completion.get("withdrawal_code")}
     return values
+
+
+def choice_missing(words: Catalogue, trial: Mapping[str, Any], selected: Sequence[str], best: str | None) -> str | None:
+    """Return what a choice lacks, in the words that the page with script uses, or None."""
+    count = len(selected)
+    if count < trial["minimum"]:
+        key = "need_one" if trial["minimum"] == 1 else "need"
+        return str(words.say(f"client.{key}", count=trial["minimum"]))
+    if count > trial["maximum"]:
+        return str(words.say("client.limit", count=trial["maximum"]))
+    if count > 1 and best not in selected:
+        return str(words.say("client.need_best", count=count))
+    return None
 
 
 def _evolve(words: Catalogue, trial: Mapping[str, Any]) -> dict[str, Any]:

@@ -15,7 +15,7 @@ OTHERS = 0.35
 
 
 def main():
-    renderer, rig = make_renderer("pyrender")
+    renderer, rig, *_ = make_renderer("pyrender")
     settings = RenderSettings(width=2 * SIZE[0], height=2 * SIZE[1])
     pictures = renderer.draw("female", shape_weights(rig, _genes(rig)), settings)
     renderer.close()

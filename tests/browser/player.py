@@ -78,7 +78,7 @@ class Player:
         self.page.wait_for_selector(".rating")
         self.page.wait_for_load_state()
         for scale, value in enumerate(values):
-            self.page.locator(".boxes").nth(scale).locator("label").nth(value - 1).click()
+            self.page.locator(".boxes").nth(scale).locator("input").nth(value - 1).check()
         self.page.get_by_role("button", name="Next").click()
         return self
 

@@ -1,4 +1,4 @@
-"""A real server process with studies in it, and a real Chromium: what every browser test and the tools here start from."""
+"""A real server process with studies in it, and a real Chromium: what all browser tests and tools start from."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ from server.services.config import DEMO, Emotion
 from server.services.drawing import open_house
 from server.settings import Settings
 
-SWITCHES = (
-    "--no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking"
-    " --disable-component-update --disable-sync"
-).split()
+SWITCHES = [
+    "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+    "--disable-component-update", "--disable-sync",
+]  # fmt: skip
 SMALL = {"emotions": (Emotion(adjective="angry", noun="anger"),), "generations": 2, "portrait": {"width": 200}}
 TEXTS = {
     "organisation": "University of Westbrook",
@@ -67,7 +67,7 @@ class Stage:
 def drawing():
     """Return what can draw on this machine: OpenGL where it works, else the slow fallback."""
     try:
-        renderer, _ = make_renderer("pyrender")
+        renderer, *_ = make_renderer("pyrender")
     except EmogenError:
         return "software"
     renderer.close()
