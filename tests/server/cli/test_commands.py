@@ -1,0 +1,60 @@
+"""Commands that measure or check speak JSON; simulated participants go through the real interface."""
+
+import csv
+import json
+
+import pytest
+
+from tests.server.cli.running import emogen
+
+
+@pytest.fixture(scope="module")
+def data_dir(tmp_path_factory):
+    return tmp_path_factory.mktemp("commands") / "var"
+
+
+@pytest.fixture(scope="module")
+def simulated(data_dir):
+    done = emogen(data_dir, "simulate", "--participants", "2", "--study", "demo", "--seed", "5", "--json")
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_simulated_participants_come_near_what_they_have_in_mind(simulated):
+    assert (simulated["participants"], len(simulated["trials"])) == (2, 8)
+    assert simulated["choices"] == 8 * 11
+    assert simulated["mean_final_cosine_distance"] < 0.7
+
+
+def test_the_same_seed_gives_the_same_results(simulated, tmp_path):
+    again = emogen(tmp_path / "var", "simulate", "--participants", "2", "--seed", "5", "--json")
+    assert json.loads(again.stdout)["trials"] == simulated["trials"]
+
+
+def test_export_writes_every_table_and_marks_the_simulated(simulated, data_dir, tmp_path):
+    done = emogen(data_dir, "export", "--study", "demo", "--out", str(tmp_path / "out"))
+    assert done.returncode == 0, done.stderr
+    with (tmp_path / "out" / "faces.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 2 * (1 + 4 * 11) * 10
+    assert {row["simulated"] for row in rows} == {"true"}
+    dictionary = json.loads((tmp_path / "out" / "dictionary.json").read_text())
+    assert list(rows[0]) == [column["name"] for column in dictionary["faces"]]
+
+
+def test_an_unknown_study_is_one_sentence(data_dir, tmp_path):
+    for command in (["export", "--study", "none", "--out", str(tmp_path)], ["simulate", "--study", "none"]):
+        done = emogen(data_dir, *command)
+        assert (done.returncode, done.stderr) == (1, "There is no such study.\n")
+
+
+def test_doctor_tells_where_everything_is(data_dir):
+    done = emogen(data_dir, "doctor", "--json")
+    report = json.loads(done.stdout)
+    assert report["packages"]["server"].endswith("server")
+    assert len(report["rig"]["hash"]) == 64
+    assert report["database"]["kind"] == "sqlite"
+    assert "drawing" in report
+    assert (done.returncode == 0) is (report["problems"] == [])
+    plain = emogen(data_dir, "doctor")
+    assert report["rig"]["hash"] in plain.stdout

@@ -1,0 +1,66 @@
+"""The server as a process: it greets, it survives a power cut, it ends when asked."""
+
+import re
+
+import pytest
+
+from tests.server.cli.running import Server, emogen
+from tests.server.walker import Walker
+
+
+@pytest.fixture
+def data_dir(tmp_path):
+    return tmp_path / "var"
+
+
+def test_nothing_acknowledged_is_lost_to_kill_9(data_dir):
+    first = Server(data_dir)
+    walker = Walker(first.client, first.link)
+    acknowledged = []
+    state = walker.state()
+    for _ in range(9):
+        state = walker.step(state)
+        acknowledged.append((walker.sent[-1], state))
+    assert state["step"] == "evolve"
+    first.kill()
+
+    second = Server(data_dir)
+    assert second.link == first.link, "the demonstration study was kept, not made again"
+    walker.client = second.client
+    assert walker.state() == state
+    for body, reply in acknowledged:
+        assert walker.client.post(f"{walker.address}/answers", json=body).json() == reply
+    for _ in range(3):
+        state = walker.step(state)
+    assert state["trial"]["generation"] == acknowledged[-1][1]["trial"]["generation"] + 3
+    picture = second.client.get(state["trial"]["faces"][0]["portrait"])
+    assert picture.content.startswith(b"\x89PNG")
+    assert second.stop() in {0, -15}
+
+
+def test_the_first_start_prints_a_link_and_a_one_time_set_up_link(data_dir):
+    server = Server(data_dir)
+    said = "".join(server.said)
+    key = re.search(r"/admin/setup\?key=([0-9A-Z-]+)", said).group(1)
+    assert len(key) == 19
+    assert server.client.get(f"/admin/setup?key={key}").status_code == 200
+    server.stop()
+
+
+def test_a_taken_port_is_one_sentence(data_dir):
+    import socket
+
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        done = emogen(data_dir, "serve", "--port", str(taken.getsockname()[1]))
+    assert done.returncode == 1
+    assert "EMOGEN_PORT" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_a_wrong_setting_is_one_sentence(data_dir):
+    done = emogen(data_dir, "serve", EMOGEN_RENDERER="crayons")
+    assert done.returncode == 1
+    assert done.stderr.startswith("EMOGEN_RENDERER: ")
+    assert "Traceback" not in done.stderr
