@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 KIND = "look"
 VERSION = 1
 LAYERS = ("skin", "eyes", "lashes")
+HAIR_DEPTH = 16.0  # millimetres
 _LAYER_FIELDS = ("source", "uv", "triangles", "surface")
 
 
@@ -61,6 +62,7 @@ class Style:
         tone: mean sRGB colour of the skin, 0 to 1; shine is broken up where the texture departs from it.
         lash: sRGB colour of the lashes.
         wrinkles: how strongly expression lines show, 0 to 1.
+        lines: how much of them is there at rest, 0 to 1.
         shine: strength of the skin's highlights.
     """
 
@@ -71,6 +73,7 @@ class Style:
     tone: tuple[float, float, float]
     lash: tuple[float, float, float] = (0.1, 0.07, 0.06)
     wrinkles: float = 0.55
+    lines: float = 0.0
     shine: float = 1.0
 
 
@@ -86,8 +89,8 @@ class Look:
         styles: identity -> what it wears.
         default: the identity whose style is worn by heads that the look does not know.
         textures: name -> bytes (uint8) of a WebP or PNG file; ``relief`` is the grey wrinkle relief of the skin.
-        bakes: name -> (R, 3) float32 in [0, 1] of the skin layer: ambient occlusion, sight of the key light,
-            translucency.
+        bakes: name -> (R, 4) float32 in [0, 1] of the skin layer: ambient occlusion, sight of the key light,
+            translucency, and the hair's thickness in units of `HAIR_DEPTH`.
         wrinkle_masks: (R, G) float32, where each wrinkle group shows on the skin layer.
         wrinkle_drivers: for each group, shape name -> gain.
         edges: ``left_upper``, ``left_lower``, ``right_upper``, ``right_lower`` (lids), ``mouth_upper``, ``mouth_lower``

@@ -48,7 +48,7 @@ def plain_look(rig: Rig) -> Look:
         styles={"plain": Style("plain", "plain", "plain", "plain", _TONE)},
         default="plain",
         textures={"plain": _palette(names)},
-        bakes={"plain": np.tile(np.array([1, 1, 0], np.float32), (count, 1))},
+        bakes={"plain": np.tile(np.array([1, 1, 0, 0], np.float32), (count, 1))},
         wrinkle_masks=np.zeros((count, 0), np.float32),
         hash="plain",
     )

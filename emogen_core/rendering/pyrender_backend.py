@@ -99,6 +99,7 @@ class PyrenderRenderer:
         """Return the picture (height, width, 3) of what was uploaded last, in the identity's style and camera."""
         if self._pass is None:
             raise RenderingError("this renderer is closed")
+        self._context.make_current()
         self._dress(self._look.style(identity))
         camera = self.camera(identity)
         self._pass.aim(camera, self._look.style(identity), settings)
@@ -112,10 +113,7 @@ class PyrenderRenderer:
     def camera(self, identity: str) -> Camera:
         """Return the camera that frames this identity."""
         if identity not in self._cameras:
-            rig = self.surface.rig
-            first, last = rig.parts["skin"]
-            skin = rig.neutral(identity)[np.unique(rig.triangles[first:last])]
-            self._cameras[identity] = frame_head(skin)
+            self._cameras[identity] = frame_head(self.surface.neutral_skin(identity))
         return self._cameras[identity]
 
     def close(self) -> None:
@@ -175,7 +173,7 @@ class _Pass(_PyrenderRenderer):
         span = 2 * (camera.height - camera.bottom)
         self._tones = {"skin": np.array(style.tone), "eyes": np.ones(3), "lashes": np.array(style.lash)}
         self._uniforms = {
-            "fade": np.array([camera.bottom + 0.10 * span, camera.bottom + 0.005 * span, 1e-3]),
+            "fade": np.array([camera.bottom + 0.05 * span, camera.bottom - 0.045 * span, 4e-4]),
             "background": np.array(settings.background, np.float64) / 255,
             "shine_scale": float(style.shine),
         }

@@ -66,7 +66,8 @@ def _barycentric(corners: NDArray[np.floating], at: NDArray[np.floating]) -> NDA
     """Return (n, 3) weights, negative (or NaN in triangles without area) outside."""
     first, second, to = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0], at - corners[:, 0]
     area = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        b = (to[:, 0] * second[:, 1] - to[:, 1] * second[:, 0]) / area
-        c = (first[:, 0] * to[:, 1] - first[:, 1] * to[:, 0]) / area
+    # Slivers count as empty: dividing by their area overflows.
+    area = np.where(np.abs(area) > 1e-12, area, np.nan)
+    b = (to[:, 0] * second[:, 1] - to[:, 1] * second[:, 0]) / area
+    c = (first[:, 0] * to[:, 1] - first[:, 1] * to[:, 0]) / area
     return np.stack([1 - b - c, b, c], 1)

@@ -38,8 +38,8 @@ def look_for(rig: Rig) -> Look:
     return plain_look(rig)
 
 
-def make_renderer(backend: str, rig: Path | None = None, look: Path | None = None) -> tuple[Renderer, Rig, Look]:
-    """Make a renderer in this thread; return it with the rig and the look that it draws.
+def make_renderer(backend: str, rig: Path | None = None, look: Path | None = None) -> tuple[Renderer, Rig]:
+    """Make a renderer in this thread; return it with the rig that it draws.
 
     Args:
         backend: ``pyrender`` or, only when asked for by name, ``software``.
@@ -51,15 +51,25 @@ def make_renderer(backend: str, rig: Path | None = None, look: Path | None = Non
         MissingGLError: ``pyrender`` on a machine without OpenGL.
         RigFileError: a file is missing or damaged.
     """
+    model, worn = load_dressed(rig, look)
+    return renderer_for(backend, model, worn), model
+
+
+def load_dressed(rig: Path | None = None, look: Path | None = None) -> tuple[Rig, Look]:
+    """Load a rig and what it wears; see `make_renderer`."""
+    model = load_rig(rig) if rig else load_bundled_rig()
+    return model, load_look(look) if look else look_for(model)
+
+
+def renderer_for(backend: str, rig: Rig, look: Look) -> Renderer:
+    """Make a renderer for a rig in a look; see `make_renderer`."""
     if backend not in BACKENDS:
         raise InvalidInputError(f"backend: {expected(f'one of {BACKENDS}', backend)}")
-    model = load_rig(rig) if rig else load_bundled_rig()
-    dressed = load_look(look) if look else look_for(model)
     if backend == "software":
         from emogen_core.rendering.software import SoftwareRenderer  # noqa: PLC0415
 
-        return SoftwareRenderer(model, dressed), model, dressed
+        return SoftwareRenderer(rig, look)
     # Importing the backend opens the GL libraries, which need not be there.
     from emogen_core.rendering.pyrender_backend import PyrenderRenderer  # noqa: PLC0415
 
-    return PyrenderRenderer(model, dressed), model, dressed
+    return PyrenderRenderer(rig, look)

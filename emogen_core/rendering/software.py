@@ -72,9 +72,7 @@ class SoftwareRenderer:
 
     def _camera(self, identity: str) -> Camera:
         if identity not in self._cameras:
-            rig = self._surface.rig
-            skin = rig.triangles[slice(*rig.parts["skin"])]
-            self._cameras[identity] = frame_head(rig.neutral(identity)[np.unique(skin)])
+            self._cameras[identity] = frame_head(self._surface.neutral_skin(identity))
         return self._cameras[identity]
 
     def _colours(self, identity: str) -> NDArray[np.float32]:

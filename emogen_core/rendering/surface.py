@@ -13,6 +13,7 @@ import numpy as np
 from scipy import sparse
 
 from emogen_core.face.evaluate import vertices
+from emogen_core.rendering.look import HAIR_DEPTH
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 POSITION, NORMAL, TEXTURE, LIGHT, TINT = slice(0, 3), slice(3, 6), slice(6, 8), slice(8, 10), slice(10, 14)
 COLUMNS = 14
 # Between lips at rest it is dark: how dark, and by how many millimetres they part until light gets in.
-_CLOSED_MOUTH, _OPEN_MOUTH = 0.20, 3.5
+_CLOSED_MOUTH, _OPEN_MOUTH = 0.20, 2.4
 # How dark an eyeball is right under the upper lid, and over what part of its radius the shadow runs out.
 _LID_SHADOW, _LID_REACH = 0.34, 0.34
 
@@ -70,12 +71,31 @@ class Surface:
         for name, layer in self.look.layers.items():
             rows[name][:, POSITION] = mesh[layer.source]
             rows[name][:, NORMAL] = normals[layer.source]
+        self._comb(rows["skin"], identity)
         if "mouth_upper" in self.look.edges:
             self._light_mouth(rows["skin"], identity, mesh)
         self._crease(rows["skin"], identity, alpha)
         if "eyes" in rows and "left_upper" in self.look.edges:
             self._shade_eyes(rows["eyes"], mesh)
         return rows
+
+    def neutral_skin(self, identity: str) -> NDArray[np.float32]:
+        """Return the (n, 3) vertices of an identity's neutral skin, hair included: what the camera has to frame."""
+        first, last = self.rig.parts["skin"]
+        used = np.unique(self.rig.triangles[first:last])
+        neutral = self.rig.neutral(identity)
+        rows = np.zeros((len(self.look.layers["skin"].source), COLUMNS), np.float32)
+        rows[:, POSITION] = neutral[self.look.layers["skin"].source]
+        rows[:, NORMAL] = self._normals(neutral)[self.look.layers["skin"].source]
+        self._comb(rows, identity)
+        dressed: NDArray[np.float32] = rows[np.isin(self.look.layers["skin"].source, used), POSITION]
+        return dressed
+
+    def _comb(self, rows: NDArray[np.float32], identity: str) -> None:
+        """Lift the hair off the scalp."""
+        hair = self.look.bakes[self.look.style(identity).bake][:, 3]
+        haired = np.flatnonzero(hair)
+        rows[haired, POSITION] += HAIR_DEPTH * hair[haired, None] * rows[haired, NORMAL]
 
     def _template(self, identity: str) -> dict[str, NDArray[np.float32]]:
         if identity not in self._templates:
@@ -89,7 +109,7 @@ class Surface:
             rows[:, 8], rows[:, 10], rows[:, 11:13] = 1, 1, layer.surface[:, :2]
             if name == "skin":
                 bake = self.look.bakes[self.look.style(identity).bake]
-                rows[:, 10], rows[:, LIGHT] = bake[:, 0], bake[:, 1:]
+                rows[:, 10], rows[:, LIGHT] = bake[:, 0], bake[:, 1:3]
             yield name, rows
 
     def _light_mouth(self, rows: NDArray[np.float32], identity: str, mesh: NDArray[np.float32]) -> None:
@@ -105,10 +125,11 @@ class Surface:
         return float((upper[:, 1] - np.interp(upper[:, 0], lower[:, 0], lower[:, 1])).max())
 
     def _crease(self, rows: NDArray[np.float32], identity: str, alpha: NDArray[np.float32]) -> None:
-        strength = self.look.style(identity).wrinkles
+        style = self.look.style(identity)
         smooth = np.ones(len(self._creased), np.float32)
         for gain, mask in zip(self._wrinkle_gains, self._masks, strict=True):
-            active = strength * min(1.0, max(0.0, float(alpha @ gain)))
+            folded = min(1.0, max(0.0, float(alpha @ gain)))
+            active = style.wrinkles * (style.lines + (1 - style.lines) * folded)
             if active:
                 smooth *= 1 - active * mask
         rows[self._creased, 13] = 1 - smooth

@@ -1,8 +1,8 @@
 """One drawing process of the pool: `python -m emogen_core.rendering.worker FD BACKEND RIG LOOK`.
 
-It speaks over one inherited socket: first ("ready", (rig hash, look hash)) or ("failed", kind, sentence), then for every
-(identity, (B, K) weights, settings) it answers ("drawn", [PNG, ...]) or ("failed", kind, sentence). It ends when the
-socket closes, so it never outlives its pool.
+It speaks over one inherited socket: first ("ready", (rig hash, look hash)) or ("failed", kind, sentence), then for
+every (identity, (B, K) weights, settings) it answers ("drawn", [PNG, ...]) or ("failed", kind, sentence). It ends when
+the socket closes, so it never outlives its pool.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import numpy as np
 from emogen_core.errors import EmogenError, MissingGLError
 from emogen_core.rendering.png import encode_png
 from emogen_core.rendering.protocol import RenderSettings
-from emogen_core.rendering.setup import make_renderer
+from emogen_core.rendering.setup import load_dressed, renderer_for
 
 if TYPE_CHECKING:
     from emogen_core.rendering.protocol import Renderer
@@ -40,7 +40,8 @@ def _start(backend: str, rig: str, look: str) -> tuple[Renderer, tuple[str, str]
     if ":" in backend:
         module, name = backend.split(":")
         return getattr(import_module(module), name)(), ("", "")
-    renderer, known, worn = make_renderer(backend, Path(rig) if rig else None, Path(look) if look else None)
+    known, worn = load_dressed(Path(rig) if rig else None, Path(look) if look else None)
+    renderer = renderer_for(backend, known, worn)
     weights = np.zeros((1, len(known.shape_names)), np.float32)
     renderer.draw(known.identities[0], weights, RenderSettings())
     return renderer, (known.hash, worn.hash)

@@ -43,11 +43,11 @@ void main() {
     float h = clamp(dot(n, CATCH), 0.0, 1.0);
     float g = clamp(dot(n, normalize(FILL + view)), 0.0, 1.0);
     float open = smoothstep(0.34, 0.60, diffuse.x);
-    c += open * (mix(0.10, 1.0, texel.a) * 1.5 * smoothstep(0.9938, 0.9975, h) + 0.10 * texel.a * smoothstep(0.975, 0.99, g)
+    c += open * (mix(0.10, 1.0, texel.a) * 1.5 * smoothstep(0.9925, 0.9965, h) + 0.10 * texel.a * smoothstep(0.975, 0.99, g)
         + 0.05 * pow(h, 40.0));
     colour = vec4(mix(developed(c), background, extra.y), 1.0);
 #else
-    float relief = (texel.a - 0.502) * 2.0 * extra.x;
+    float relief = (texel.a - 0.502) * 1.5 * extra.x;
     // Pores, hair and brows are darker than skin and shine less: that breaks the highlight up.
     float rough = clamp(1.0 + 2.2 * (texel.g / max(tone.g, 0.05) - 1.0), 0.12, 1.5);
     vec3 c = albedo * diffuse * (1.0 + relief * vec3(0.85, 1.0, 1.05)) + shine * rough * (1.0 + relief);

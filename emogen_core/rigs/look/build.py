@@ -10,12 +10,13 @@ import numpy as np
 from PIL import Image
 from scipy.spatial import cKDTree
 
-from emogen_core.rendering.look import Layer, Look, Style, save_look, topology_hash
+from emogen_core.rendering.look import HAIR_DEPTH, Layer, Look, Style, save_look, topology_hash
 from emogen_core.rigs.head_mesh import build_geometry
 from emogen_core.rigs.look import eyes, wrinkles
 from emogen_core.rigs.look.atlas import SKIN_PARTS, build_atlas
 from emogen_core.rigs.look.bake import bake
 from emogen_core.rigs.look.canvas import make_canvas, sample_mask, step
+from emogen_core.rigs.look.hair import hair_thickness
 from emogen_core.rigs.look.presets import ALIASES, Preset, presets
 from emogen_core.rigs.look.skin import mean_tone, paint_skin
 from emogen_core.rigs.look.zones import make_zones
@@ -73,12 +74,14 @@ def build_look(  # noqa: PLR0913 - the last three by keyword
         skins[f"skin-{preset.name}"] = _webp(picture)
         styles[preset.name] = _style(preset, mean_tone(canvas, picture))
     progress("tracing light")
-    baked = {name: _relaxed(bake(rig, name), atlas, geometry, lips) for name in styles}
-    for alias, name in ALIASES.items():
-        if name in styles:
-            styles[alias] = replace(styles[name], bake=alias)
-            baked[alias] = _relaxed(bake(rig, alias), atlas, geometry, lips)
     place = (geometry.positions[atlas.layers["skin"].source] / 100).astype(np.float32)
+    ear = sample_mask(ears, atlas.body_uv)
+    baked = {}
+    for preset in chosen:
+        hair = hair_thickness(place, ear, preset) * (atlas.layers["skin"].surface[:, 0] == 1) / HAIR_DEPTH
+        for name in (preset.name, *(alias for alias, of in ALIASES.items() if of == preset.name)):
+            styles[name] = replace(styles[preset.name], bake=name)
+            baked[name] = np.column_stack([_relaxed(bake(rig, name), atlas, geometry, lips), hair])
     on_skin = atlas.layers["skin"].surface[:, :1] == 1
     look = Look(
         name="emogen head",
@@ -110,6 +113,7 @@ def _style(preset: Preset, tone: tuple[float, float, float]) -> Style:
         tone=tone,
         lash=(red, green, blue),
         wrinkles=1.0 if preset.old else 0.5,
+        lines=0.30 if preset.old else 0.0,
         shine=0.80 if preset.old else 1.0,
     )
 
@@ -179,8 +183,8 @@ def _relaxed(
     kind = atlas.layers["skin"].surface[:, 0]
     deep, teeth = kind < 0.85, kind < 0.2
     light[deep, 0] = 0.22 + 0.78 * light[deep, 0]
-    light[teeth, 0] = 0.42 + 0.58 * light[teeth, 0]
-    light[deep, 1] = np.maximum(light[deep, 1], 0.45 * light[deep, 0])
+    light[teeth, 0] = 0.55 + 0.45 * light[teeth, 0]
+    light[deep, 1] = np.maximum(light[deep, 1], 0.62 * light[deep, 0])
     return light
 
 

@@ -93,12 +93,12 @@ def _veins() -> NDArray[np.float64]:
 def _iris(
     r: NDArray[np.float64], angle: NDArray[np.float64], y: NDArray[np.float64], preset: Preset
 ) -> NDArray[np.float64]:
-    base = np.array(preset.iris) / 255
+    base = np.array(preset.iris) / 255 * 0.84
     fibres = sum(_fibres(angle, r, n, k) * a for k, (n, a) in enumerate(((40, 0.16), (95, 0.15), (210, 0.10))))
     collar = np.exp(-(((r - 0.50) / 0.10) ** 2))
-    bright = 1.12 + fibres + 0.22 * collar - 0.26 * step(r, 0.62, 1.0)
+    bright = 1.12 + fibres + 0.22 * collar - 0.34 * step(r, 0.58, 1.0)
     # The light that enters above is gathered in the lower half.
-    bright = bright + 0.34 * step(y, 0.06, -0.16) * step(r, 0.35, 0.6)
+    bright = bright + 0.26 * step(y, 0.06, -0.16) * step(r, 0.35, 0.6)
     warm = collar[..., None] * np.array([0.09, 0.04, -0.03]) * (1.0 if base[2] > base[0] * 0.9 else 0.35)
     return np.asarray(base * bright[..., None] + warm)
 

@@ -97,8 +97,8 @@ def _beard(canvas: Canvas, zones: Zones, preset: Preset) -> NDArray[np.float32]:
     spot = canvas.at[rooted]
     uv = np.column_stack([spot % canvas.size + 0.5, canvas.size - spot // canvas.size - 0.5]) / canvas.size
     hairs = canvas.from_image(stubble(canvas.size, uv, 1))
-    shadow = np.array([0.150, 0.118, 0.090], np.float32) * (0.6 if preset.old else 1.0)
-    dark = np.array([0.30, 0.30, 0.28], np.float32) * (-0.35 if preset.old else 1.0)
+    shadow = np.array([0.120, 0.094, 0.070], np.float32) * (0.6 if preset.old else 1.0)
+    dark = np.array([0.22, 0.22, 0.20], np.float32) * (-0.35 if preset.old else 1.0)
     return np.asarray(1 - cover[:, None] * shadow - (cover * hairs)[:, None] * dark, np.float32)
 
 
@@ -110,7 +110,7 @@ def _scalp(colour: NDArray[np.float32], canvas: Canvas, zones: Zones, preset: Pr
     hair = _rgb(preset.hair) * strand[:, None]
     grown = zones.receding if preset.old and preset.male else zones.hair
     # Towards its edge the hair thins out hair by hair, not as a veil.
-    ragged = step(grown + 5 * (detail - 0.5) * grown * (1 - grown), 0.30, 0.70)
+    ragged = step(grown + 3.6 * (detail - 0.5) * grown * (1 - grown), 0.30, 0.70)
     amount = ragged * (0.55 if preset.old and preset.male else 0.86 if cropped else 0.97)
     # Between cropped hairs the scalp shows.
     thin = np.clip(1 - (0.55 if cropped else 0.10) * np.clip(detail - 0.42, 0, 0.4) / 0.4, 0, 1)
@@ -121,9 +121,9 @@ def _brows(colour: NDArray[np.float32], canvas: Canvas, preset: Preset) -> NDArr
     cover, shade = brow_hairs(canvas, preset)
     soft = canvas.from_image(gaussian_filter(cover, 5 * canvas.size / 2048))
     hair = _rgb(preset.brow) * (1 + (0.22 if preset.old else 0.30) * canvas.from_image(shade))[:, None]
-    under = 0.28 if preset.old else 0.40
+    under = 0.24 if preset.old else 0.34
     colour = _over(colour, np.broadcast_to(_rgb(preset.brow), colour.shape), np.clip(soft * under, 0, 1))
-    return _over(colour, np.asarray(hair, np.float32), 0.80 * canvas.from_image(cover))
+    return _over(colour, np.asarray(hair, np.float32), 0.76 * canvas.from_image(cover))
 
 
 def _inside(colour: NDArray[np.float32], canvas: Canvas) -> NDArray[np.float32]:
@@ -155,7 +155,7 @@ def _teeth(colour: NDArray[np.float32], canvas: Canvas, name: str) -> None:
     enamel *= 1 - root * (0.05, 0.09, 0.17)
     edge = (step(down, 0.90, 0.99) * step(down, 1.4, 1.1))[:, None]
     enamel *= 1 - edge * (0.10, 0.07, 0.03)
-    enamel *= 1 - 0.62 * (step(np.abs(across), 0.72, 1.0) ** 1.5)[:, None] * (0.80, 0.95, 1.0)
+    enamel *= 1 - 0.46 * (step(np.abs(across), 0.72, 1.0) ** 1.5)[:, None] * (0.80, 0.95, 1.0)
     enamel *= (1 - 0.52 * far**1.6)[:, None]
     gum = np.array([0.74, 0.43, 0.42]) * (1 - 0.45 * far**1.6)[:, None]
     line = 0.50 + 0.07 * across**2

@@ -89,7 +89,8 @@ def _brow(preset: Preset, rng: np.random.Generator, side: int) -> Iterable[NDArr
         bend = np.linspace(0, 1, _SEGMENTS + 1)
         heading = angle - 0.45 * lift * bend
         steps = length / _SEGMENTS * np.stack([np.cos(heading), np.sin(heading)], 1)
-        root = np.array([x - 0.4 * length, curve(x) + across * thick])
+        loose = rng.normal(0, 0.011) * (1 - t) ** 2
+        root = np.array([x - 0.4 * length + loose, curve(x) + across * thick * (1 + 0.5 * abs(loose) / 0.011)])
         hair = root + np.concatenate([np.zeros((1, 2)), np.cumsum(steps[1:], 0)])
         yield hair * (side, 1)
 

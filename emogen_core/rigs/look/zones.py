@@ -9,18 +9,13 @@ import numpy as np
 from scipy.ndimage import gaussian_filter
 
 from emogen_core.rigs.look.canvas import step
+from emogen_core.rigs.look.hair import hair_cover
 from emogen_core.rigs.look.noise import band_noise, fractal, value_noise
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from emogen_core.rigs.look.canvas import Canvas
-
-# Height of the hairline (decimetres) over the angle round the vertical through (0, z = -0.55), degrees from the front.
-_HAIRLINE = (
-    (0, 0.735), (18, 0.745), (34, 0.70), (48, 0.56), (58, 0.40), (66, 0.22), (74, 0.03), (82, -0.06), (90, 0.02),
-    (100, 0.02), (112, -0.22), (135, -0.50), (180, -0.56),
-)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -68,7 +63,6 @@ def make_zones(
     pores = _image(canvas, np.minimum(band_noise(canvas.size, 1.3, 2.8, 1), 0.5))
     freckle = np.clip(_image(canvas, band_noise(canvas.size, 2.6, 6.5, 2)) - 1.55, 0, 1)
     grain = _image(canvas, gaussian_filter(band_noise(canvas.size, 1.4, 30, 3), (9 * canvas.size / 2048, 0)))
-    hair = _hair(canvas, ear, 0.0)
     return Zones(
         blood=_blood(canvas, ear),
         mottle=fractal(canvas.place, {5: 0.016, 13: 0.020, 31: 0.024, 80: 0.020}, 4),
@@ -81,8 +75,8 @@ def make_zones(
         lips=mouth,
         lip_lines=grain / max(float(grain.std()), 1e-6),
         ears=ear,
-        hair=hair,
-        receding=_hair(canvas, ear, 0.30),
+        hair=hair_cover(canvas.place, ear) * canvas.is_part("skin"),
+        receding=hair_cover(canvas.place, ear, 0.30) * canvas.is_part("skin"),
         beard=_beard(canvas) * (1 - mouth),
         lash_line=np.exp(-((rim / 0.012) ** 2)) * canvas.is_part("skin"),
         lid_rim=np.exp(-((rim / 0.022) ** 2)),
@@ -115,20 +109,9 @@ def _lips(canvas: Canvas, mask: NDArray[np.float32]) -> NDArray[np.float32]:
     return np.asarray(step(edge, 0.22, 0.70) * canvas.is_part("skin"), np.float32)
 
 
-def _hair(canvas: Canvas, ear: NDArray[np.float32], recede: float) -> NDArray[np.float32]:
-    """Return how much a texel belongs to the scalp's hair; ``recede`` lifts the front and the temples."""
-    angle = np.degrees(np.arctan2(np.abs(canvas.x), canvas.z + 0.55))
-    table = np.array(_HAIRLINE)
-    line = np.interp(angle, table[:, 0], table[:, 1])
-    line = line + recede * step(angle, 75, 40) * (1 + 0.5 * step(angle, 15, 35))
-    ragged = 0.020 * fractal(canvas.place, {14: 0.5, 40: 0.7, 90: 0.7}, 9)
-    grown = step(canvas.y - line + ragged, -0.05, 0.10)
-    return np.asarray(grown * (1 - step(ear, 0.05, 0.4)) * canvas.is_part("skin"), np.float32)
-
-
 def _beard(canvas: Canvas) -> NDArray[np.float32]:
     x, y = np.abs(canvas.x), canvas.y
-    jaw = step(y, -0.30, -0.75) * step(y, -1.42, -1.16) * step(canvas.z, -0.75, -0.45)
+    jaw = step(y, -0.30, -0.75) * step(y, -1.27, -1.06) * step(canvas.z, -0.75, -0.45)
     cheek = step(0.42 - 0.75 * (y + 0.62) - x, 0.25, -0.15) * step(y, -0.45, -0.62)
     chin = np.exp(-((x / 0.30) ** 2 + ((y + 0.98) / 0.22) ** 2))
     lip = np.exp(-((x / 0.27) ** 2 + ((y + 0.535) / 0.055) ** 2))
@@ -138,6 +121,7 @@ def _beard(canvas: Canvas) -> NDArray[np.float32]:
 
 
 def _age_spots(canvas: Canvas) -> NDArray[np.float32]:
-    noise = value_noise(canvas.place, 7, 12) + 0.5 * value_noise(canvas.place, 18, 13)
-    spots = step(noise, 2.0, 2.9) * (1 - canvas.spot(0, 0.45, 0.30, 0.25))
+    noise = value_noise(canvas.place, 13, 12) + 0.5 * value_noise(canvas.place, 30, 13)
+    face = step(canvas.y, -1.0, -0.7) * (1 - canvas.spot(0, 0.45, 0.30, 0.25))
+    spots = step(noise, 1.9, 3.0) * face
     return np.asarray(spots, np.float32)
