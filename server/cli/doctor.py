@@ -29,7 +29,7 @@ _DRAW = """
 import json, numpy as np
 from emogen_core.rendering.protocol import RenderSettings
 from emogen_core.rendering.setup import make_renderer
-renderer, rig = make_renderer("pyrender")
+renderer, rig = make_renderer("pyrender")[:2]
 weights = np.zeros((1, len(rig.shape_names)), np.float32)
 picture = renderer.draw(rig.identities[0], weights, RenderSettings(100, 120))
 from OpenGL.GL import GL_RENDERER, GL_VENDOR, GL_VERSION, glGetString

@@ -32,8 +32,15 @@ RATING = 4
 class Reply(Protocol):
     """What an HTTP client gives back."""
 
-    status_code: int
-    text: str
+    @property
+    def status_code(self) -> int:
+        """Return the status."""
+        ...
+
+    @property
+    def text(self) -> str:
+        """Return the body as text."""
+        ...
 
     def json(self) -> Any:
         """Return the body as data."""

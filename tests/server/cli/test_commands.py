@@ -58,3 +58,15 @@ def test_doctor_tells_where_everything_is(data_dir):
     assert (done.returncode == 0) is (report["problems"] == [])
     plain = emogen(data_dir, "doctor")
     assert report["rig"]["hash"] in plain.stdout
+
+
+def test_rig_check_measures(data_dir):
+    done = emogen(data_dir, "rig", "check", "--faces", "4", "--json")
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)
+
+
+def test_help_names_every_command(data_dir):
+    said = emogen(data_dir, "--help").stdout
+    for command in ("serve", "doctor", "rig", "simulate", "export", "bench"):
+        assert command in said
