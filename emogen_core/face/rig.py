@@ -76,7 +76,8 @@ class Adjustment:
     offsets: NDArray[np.float32]
 
 
-@dataclass(frozen=True)
+# Compared and hashed by identity: arrays have no single truth value, and models of a rig are cached under it.
+@dataclass(frozen=True, eq=False)
 class Rig:
     """A face model that a study can use.
 
