@@ -24,16 +24,25 @@ def highest(
         (A, B) heights.
     """
     heights = np.full((len(first), len(second)), -np.inf)
-    for a, b, c in triangles:
-        rows = slice(*np.searchsorted(first, [min(a[0], b[0], c[0]), max(a[0], b[0], c[0])]))
-        columns = slice(*np.searchsorted(second, [min(a[1], b[1], c[1]), max(a[1], b[1], c[1])]))
-        area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])
-        if rows.start >= rows.stop or columns.start >= columns.stop or abs(area) < 1e-9:
-            continue
-        p, q = first[rows, None] - a[0], second[None, columns] - a[1]
-        v = (p * (c[1] - a[1]) - q * (c[0] - a[0])) / area
-        w = (q * (b[0] - a[0]) - p * (b[1] - a[1])) / area
-        inside = (v >= 0) & (w >= 0) & (v + w <= 1)
-        height = np.where(inside, a[2] + v * (b[2] - a[2]) + w * (c[2] - a[2]), -np.inf)
-        heights[rows, columns] = np.maximum(heights[rows, columns], height)
+    a, b, c = np.moveaxis(triangles, 1, 0)
+    area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (c[:, 0] - a[:, 0]) * (b[:, 1] - a[:, 1])
+    start, rows = _span(triangles[:, :, 0], first)
+    begin, columns = _span(triangles[:, :, 1], second)
+    owner = np.repeat(np.arange(len(triangles)), np.where(np.abs(area) < 1e-9, 0, rows * columns))
+    cell = np.arange(len(owner)) - np.searchsorted(owner, owner)
+    row = start[owner] + cell // np.maximum(columns, 1)[owner]
+    column = begin[owner] + cell % np.maximum(columns, 1)[owner]
+    a, b, c, area = a[owner], b[owner], c[owner], area[owner]
+    p, q = first[row] - a[:, 0], second[column] - a[:, 1]
+    v = (p * (c[:, 1] - a[:, 1]) - q * (c[:, 0] - a[:, 0])) / area
+    w = (q * (b[:, 0] - a[:, 0]) - p * (b[:, 1] - a[:, 1])) / area
+    inside = (v >= 0) & (w >= 0) & (v + w <= 1)
+    height = a[:, 2] + v * (b[:, 2] - a[:, 2]) + w * (c[:, 2] - a[:, 2])
+    np.maximum.at(heights, (row[inside], column[inside]), height[inside])
     return heights
+
+
+def _span(corners: NDArray[np.float64], line: NDArray[np.float64]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return of every triangle the first grid value under it and how many there are."""
+    start = np.searchsorted(line, corners.min(1))
+    return start, np.searchsorted(line, corners.max(1)) - start

