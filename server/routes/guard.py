@@ -111,6 +111,8 @@ class _Exchange:
         self._scope = scope
         self._send = send
         self._headers = headers
+        # Styles and scripts have no version in their address: kept, but asked for again by their ETag.
+        self._keep = "no-cache" if scope["path"].startswith("/static/") else "no-store"
         self._began = time.perf_counter()
 
     async def send(self, message: Message) -> None:
@@ -120,7 +122,7 @@ class _Exchange:
             headers = MutableHeaders(scope=message)
             for name, value in self._headers.items():
                 headers.setdefault(name, value)
-            headers.setdefault("Cache-Control", "no-store")
+            headers.setdefault("Cache-Control", self._keep)
             headers["X-Request-ID"] = self.id
         await self._send(message)
 

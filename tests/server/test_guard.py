@@ -25,6 +25,13 @@ def test_security_headers_on_every_kind_of_answer(client, study):
         assert "strict-transport-security" not in headers
 
 
+def test_only_static_files_and_portraits_are_kept(client):
+    style = client.get("/static/admin.css")
+    assert style.headers["cache-control"] == "no-cache"
+    assert client.get("/static/admin.css", headers={"if-none-match": style.headers["etag"]}).status_code == 304
+    assert client.get("/admin/login").headers["cache-control"] == "no-store"
+
+
 def test_https_brings_hsts_and_secure_cookies(house, study):
     secure = house.settings.model_copy(update={"base_url": "https://testserver"})
     object.__setattr__(house, "settings", secure)
