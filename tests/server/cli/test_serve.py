@@ -1,9 +1,12 @@
 """The server as a process: it greets, it survives a power cut, it ends when asked."""
 
+import json
 import re
 
 import pytest
 
+from server.services.tokens import Tokens
+from server.store.engine import Database
 from tests.server.cli.running import Server, emogen
 from tests.server.walker import Walker
 
@@ -64,3 +67,16 @@ def test_a_wrong_setting_is_one_sentence(data_dir):
     assert done.returncode == 1
     assert done.stderr.startswith("EMOGEN_RENDERER: ")
     assert "Traceback" not in done.stderr
+
+
+def test_simulated_participants_visit_a_running_server(data_dir):
+    server = Server(data_dir)
+    token = Tokens(Database(f"sqlite:///{data_dir}/emogen.db")).create("simulation", ["simulate"])
+    there = ["--url", server.base, "--link", server.link]
+    done = emogen(data_dir, "simulate", *there, "--token", token, "--json")
+    assert done.returncode == 0, done.stderr
+    assert len(json.loads(done.stdout)["trials"]) == 4
+    refused = emogen(data_dir, "simulate", *there, "--token", "emg_guess")
+    assert refused.returncode == 1
+    assert "401" in refused.stderr
+    server.stop()
