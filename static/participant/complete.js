@@ -14,6 +14,9 @@ for (const button of document.querySelectorAll("[data-copy]")) {
   });
 }
 
+const date = document.querySelector("[data-date]");
+if (date) date.textContent = say("finished", { date: new Date().toLocaleDateString(document.documentElement.lang, { dateStyle: "long" }) });
+
 const print = document.querySelector("[data-print]");
 if (print) {
   print.hidden = false;

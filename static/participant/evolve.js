@@ -120,6 +120,7 @@ class Evolve {
   }
 
   async #answer(answer) {
+    this.answeredAt = performance.now();
     this.#hold(true);
     this.grid.empty();
     this.#expectReply(this.trial);
@@ -210,7 +211,13 @@ class Evolve {
     this.views.begin();
     label(trial, this.views.allSeen);
     if (this.input.now === "keyboard") this.grid.move(0, { focus: true });
-    performance.measure("emogen-faces", { start: requested, end: decoded, detail: { generation: trial.generation } });
+    this.#measure("emogen-faces", requested, decoded);
+    if (this.answeredAt) this.#measure("emogen-turnaround", this.answeredAt, decoded);
+  }
+
+  /** For the developer tools and the bench: nothing else reads it. */
+  #measure(name, start, end) {
+    performance.measure(name, { start, end });
   }
 
   #hold(busy) {
