@@ -56,7 +56,7 @@ def test_every_sentence_that_the_pages_ask_for_is_there(language):
         source = path.read_text(encoding="utf-8")
         asked = re.findall(r"""\bt\(\s*'([\w.]+)'""", source)
         asked += [f"client.{key}" for key in re.findall(r"""\bsay\(\s*"(\w+)\"""", source)]
-        for key in asked:
+        for key in (key for key in asked if not key.endswith(".")):
             assert words.entry(key), (path.name, key)
 
 
