@@ -71,7 +71,7 @@ def answer(request: Request, status: int, body: dict[str, Any], headers: dict[st
     if wants_page(request):
         pages: Pages = request.app.state.pages
         problem = PROBLEMS.get(status, "wrong")
-        html = pages.render("error.html", "en", problem=problem, reload=request.url.path)
+        html = pages.render("error.html", "en", problem=problem, reload=_way_on(request))
         return HTMLResponse(html, status, headers)
     return JSONResponse(body, status, headers)
 
@@ -92,6 +92,11 @@ def _admin(status: int, body: dict[str, Any], headers: dict[str, str] | None) ->
 def wants_page(request: Request) -> bool:
     """Return whether the request comes from a browser's address bar or a plain form."""
     return "text/html" in request.headers.get("accept", "") and not request.url.path.startswith("/api/")
+
+
+def _way_on(request: Request) -> str:
+    """Return the page to try again: a form's own address takes no GET, the page that it stood on does."""
+    return "/".join(request.url.path.split("/")[:3]) if request.method == "POST" else request.url.path
 
 
 async def _service(request: Request, error: Exception) -> Response:

@@ -58,7 +58,7 @@ class Database:
 def make_engine(url: str) -> Engine:
     """Return an engine with this house's transaction rules."""
     if make_url(url).get_backend_name() != "sqlite":
-        return create_engine(url, pool_pre_ping=True)
+        return create_engine(url, pool_pre_ping=True, pool_size=20, max_overflow=20)
     engine = create_engine(
         url, connect_args={"check_same_thread": False, "timeout": BUSY_SECONDS}, pool_size=20, max_overflow=40
     )

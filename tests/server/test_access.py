@@ -63,3 +63,10 @@ def test_a_token_is_not_stored(house, tmp_path):
     house.database.close()
     stored = b"".join(path.read_bytes() for path in (tmp_path / "var").glob("emogen.db*"))
     assert secret.encode() not in stored
+
+
+def test_the_interface_describes_itself_without_the_admin_pages(client):
+    paths = client.get("/api/v1/openapi.json").json()["paths"]
+    assert "/api/v1/studies/{study}/export" in paths
+    assert not [path for path in paths if path.startswith("/admin")]
+    assert client.get("/docs").status_code == 404, "would load scripts from another host"

@@ -91,3 +91,17 @@ def test_strange_forms(client, study):
         reply = client.post(f"{walker.address}/answers/form", content=body)
         assert reply.status_code in {400, 422}, body
     assert walker.state()["step"] == "consent"
+
+
+def test_a_fault_leads_back_to_the_page_of_the_form(client, house, study, monkeypatch):
+    walker = Walker(client, study.links[0])
+    form = form_of(walker.state())
+
+    def fail(*_):
+        raise OSError("disk full")
+
+    monkeypatch.setattr(type(house.answers), "take", fail)
+    reply = client.post(f"{walker.address}/answers/form", data=form, headers={"accept": "text/html"})
+    assert reply.status_code == 500
+    assert f'href="{walker.address}"' in reply.text
+    assert "disk" not in reply.text
