@@ -31,6 +31,7 @@ form.addEventListener("submit", async (event) => {
   outbox.onwaiting = (seconds) => notice(seconds);
   const kind = form.dataset.answer;
   await outbox.deliver({ id: data.get("id"), kind, ...BUILD[kind](data) }).catch(() => null);
+  await outbox.tidy;
   forward();
 });
 
@@ -58,5 +59,5 @@ function line(text) {
 dialogs();
 if (form.dataset.answer === "rating") scaleKeys(form);
 addEventListener("pageshow", (event) => event.persisted && location.reload());
-outbox.deliverLeft().then((reply) => reply && forward(), forward);
+outbox.deliverLeft().then((count) => count && forward());
 byId("summary")?.hidden === false && byId("summary").focus();

@@ -29,7 +29,7 @@ async function sendLeft() {
   byId("waiting").textContent = say("sending", { count: left.length, word: word(left.length) });
   byId("waiting").hidden = false;
   byId("arrived").hidden = true;
-  await new Outbox(address).deliverLeft().catch(() => null);
+  await new Outbox(address).deliverLeft();
   byId("waiting").hidden = true;
   byId("arrived").hidden = false;
 }

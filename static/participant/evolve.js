@@ -50,8 +50,9 @@ class Evolve {
     this.#hold(true);
     this.events.collectLeft();
     this.#expectReply(firstState.trial);
-    const reply = await this.outbox.deliverLeft().catch(() => null);
-    await this.#take(reply ?? { state: firstState });
+    // What was left behind moved the server on: the state in the page is from before.
+    if (await this.outbox.deliverLeft()) await this.#recover("online");
+    else await this.#take({ state: firstState });
   }
 
   #ready() {
@@ -131,15 +132,15 @@ class Evolve {
       await this.#take(reply, answer.kind === "reset" ? "started_again" : null);
     } catch (problem) {
       if (!(problem instanceof Refused)) throw problem;
-      await this.#recover();
+      await this.#recover("refused");
     }
   }
 
-  /** Something the server will not take: go to where the server is. */
-  async #recover() {
+  /** Go to where the server is. */
+  async #recover(note) {
     const response = await fetch(`${address}/state`, { cache: "no-store" }).catch(() => null);
     if (!response?.ok) return location.reload();
-    return this.#take({ state: await response.json() }, "refused");
+    return this.#take({ state: await response.json() }, note);
   }
 
   /** While a reply is due: "drawing" after 400 ms, "connection lost" after 2 s with a failure. */
@@ -164,6 +165,7 @@ class Evolve {
     const { trial } = state;
     if (trial?.id !== firstState.trial.id) {
       this.events.flush({ leaving: true });
+      await this.outbox.tidy;
       return location.replace(address);
     }
     if (recovered) this.status.say(say("online"), "mark");

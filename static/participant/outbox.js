@@ -14,6 +14,7 @@ export class Outbox {
     this.address = address;
     this.failures = 0;
     this.sending = null;
+    this.tidy = Promise.resolve();
     // Called with the seconds until the next try, 0 while trying.
     this.onwaiting = null;
     addEventListener("online", () => this.tryNow());
@@ -31,14 +32,15 @@ export class Outbox {
     return this.#send(item, kept);
   }
 
-  /** Send what an earlier page left behind; resolves with the last reply, or null when nothing waited. */
+  /** Send what an earlier page left behind; resolves with how many there were. */
   async deliverLeft() {
-    let reply = null;
-    for (const item of await waiting("answers", this.address)) {
+    const left = await waiting("answers", this.address);
+    for (const item of left) {
       this.sending = item;
-      reply = await this.#send(item, null);
+      await this.#send(item, null).catch(() => null);
     }
-    return reply;
+    await this.tidy;
+    return left.length;
   }
 
   tryNow() {
@@ -50,8 +52,8 @@ export class Outbox {
     for (;;) {
       const reply = await this.#attempt(item.answer);
       if (reply) {
-        await kept;
-        await remove("answers", [item.id]);
+        // The next faces do not wait for the device to forget this answer; leaving the page does.
+        this.tidy = Promise.resolve(kept).then(() => remove("answers", [item.id]));
         this.sending = null;
         const recovered = this.failures > 0;
         if (reply.refused) throw new Refused(reply.refused);

@@ -11,7 +11,7 @@ class Player:
     def __init__(self, page):
         self.page = page
         self.problems = []
-        page.set_default_timeout(20_000)
+        page.set_default_timeout(40_000)
         page.on("pageerror", lambda error: self.problems.append(str(error)))
 
     def arrive(self, address):

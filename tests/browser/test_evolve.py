@@ -137,6 +137,17 @@ def test_grid_is_one_tab_stop(evolving):
     assert order == ["best-1", "enlarge", "undo", "next"]
 
 
+def test_right_to_left_mirrors_the_grid_and_the_arrows(evolving):
+    page = evolving.page
+    page.evaluate("document.documentElement.dir = 'rtl'")
+    first, second = (evolving.tile(index).bounding_box() for index in (0, 1))
+    assert first["x"] > second["x"]
+    page.locator("#select-1").focus()
+    page.keyboard.press("ArrowLeft")
+    assert page.evaluate("document.activeElement.id") == "select-2"
+    assert page.locator("#next").bounding_box()["x"] < page.locator("#status").bounding_box()["x"]
+
+
 def test_start_again_asks_first(evolving):
     page = evolving.page
     assert page.locator(".footer .again").is_hidden()
