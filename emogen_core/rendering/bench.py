@@ -90,6 +90,8 @@ def _steps(rig: Rig, batches: list[NDArray[np.float32]], settings: RenderSetting
     """Return processor time a face for each step, the mean size of a PNG, and the GL renderer's name."""
     from emogen_core.rendering.pyrender_backend import PyrenderRenderer, gl_renderer  # noqa: PLC0415
 
+    # As in the pool's workers; read when GL is opened.
+    os.environ.setdefault("LP_NUM_THREADS", "0")
     renderer = PyrenderRenderer(rig, look_for(rig))
     laps: list[list[float]] = []
     sizes: list[int] = []

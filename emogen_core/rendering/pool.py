@@ -2,43 +2,35 @@
 
 A thread of this process keeps one worker each: it takes the most urgent faces off the queue, sends them, and waits a
 bounded time. A worker that dies or is late is killed and replaced, and its faces are drawn again, at most
-`ATTEMPTS` times in all. Workers are separate programs rather than forks, because a GL context does not survive a
-fork and because Mesa and BLAS read their thread counts from the environment when they are loaded.
+`ATTEMPTS` times in all.
 """
 
 from __future__ import annotations
 
 import heapq
 import os
-import socket
-import subprocess
-import sys
 import threading
 import time
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 from enum import IntEnum
-from multiprocessing.connection import Connection
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from emogen_core.errors import EmogenError, InvalidInputError, MissingGLError, RenderingError, expected
+from emogen_core.errors import EmogenError, InvalidInputError, RenderingError, expected
 from emogen_core.rendering.keys import portrait_key
+from emogen_core.rendering.process import LostError, WorkerProcess
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from numpy.typing import NDArray
 
     from emogen_core.rendering.protocol import RenderSettings
 
 ATTEMPTS = 3
 BATCH = 3
-# One core a worker: Mesa's and BLAS's own threads would only get in the way of the other workers.
-_ENVIRONMENT = {
-    "PYOPENGL_PLATFORM": "egl", "LP_NUM_THREADS": "0", "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1",
-    "MKL_NUM_THREADS": "1", "PYTHONUNBUFFERED": "1",
-}  # fmt: skip
 
 
 class Priority(IntEnum):
@@ -57,10 +49,6 @@ class _Job:
     settings: RenderSettings = field(compare=False)
     result: Future[bytes] = field(compare=False)
     attempts: int = field(compare=False, default=0)
-
-
-class _LostError(Exception):
-    """The worker died or was late."""
 
 
 class RenderPool:
@@ -99,7 +87,7 @@ class RenderPool:
         self._wake = threading.Condition()
         self._closed = False
         self._number = 0
-        self._workers: list[_Worker] = []
+        self._workers: list[WorkerProcess] = []
         self._hashes = "", ""
         self._start(count)
         self._threads = [
@@ -172,29 +160,28 @@ class RenderPool:
         deadline = time.monotonic() + self._limits[1]
         try:
             for _ in range(count):
-                self._workers.append(_Worker(self._command))
+                self._workers.append(WorkerProcess(self._command))
             for worker in self._workers:
                 self._hashes = worker.wait_ready(deadline - time.monotonic())
         except BaseException as error:
             for worker in self._workers:
                 worker.kill(for_good=True)
-            if isinstance(error, _LostError):
+            if isinstance(error, LostError):
                 raise RenderingError(f"a drawing process did not start: {error}") from error
             raise
 
-    def _keep(self, worker: _Worker) -> None:
+    def _keep(self, worker: WorkerProcess) -> None:
         """Feed one worker until the pool closes, replacing it when it is lost."""
         while jobs := self._take():
             try:
                 if not worker.alive:
                     worker.restart()
                     worker.wait_ready(self._limits[1])
-                answer = worker.draw(jobs, self._limits[0] * len(jobs))
-            except (_LostError, EmogenError) as error:
+            except (LostError, EmogenError) as error:
                 worker.kill()
                 self._again(jobs, str(error))
             else:
-                self._settle(jobs, answer)
+                self._draw(worker, jobs)
 
     def _take(self) -> list[_Job]:
         """Wait for work; return up to `BATCH` faces of one head and size, fewer while other workers could help."""
@@ -211,17 +198,21 @@ class RenderPool:
                 self._wake.wait()
         return []
 
-    def _settle(self, jobs: list[_Job], answer: tuple[Any, ...]) -> None:
+    def _draw(self, worker: WorkerProcess, jobs: list[_Job]) -> None:
+        weights = np.stack([job.weights for job in jobs])
         try:
-            _raise_failure(answer)
+            pictures = worker.draw(jobs[0].identity, weights, jobs[0].settings, self._limits[0] * len(jobs))
+        except LostError as error:
+            worker.kill()
+            self._again(jobs, str(error))
         except EmogenError as error:
-            if len(jobs) > 1:
-                self._again(jobs, str(error))
-            else:
+            if len(jobs) == 1:
                 _fail(jobs[0], error)
-            return
-        for job, picture in zip(jobs, answer[1], strict=True):
-            job.result.set_result(picture)
+            else:
+                self._again(jobs, str(error))
+        else:
+            for job, picture in zip(jobs, pictures, strict=True):
+                job.result.set_result(picture)
 
     def _again(self, jobs: list[_Job], reason: str) -> None:
         """Queue the faces of a lost worker again, each for itself, so that one bad face cannot fail its neighbours."""
@@ -237,75 +228,6 @@ class RenderPool:
             self._wake.notify_all()
 
 
-class _Worker:
-    """One drawing process and this end of its socket."""
-
-    def __init__(self, command: list[str]) -> None:
-        self._command = command
-        self._lock = threading.Lock()
-        self._over = False
-        self._socket: Connection[Any, Any] | None = None
-        self.restart()
-
-    def restart(self) -> None:
-        ours, theirs = socket.socketpair()
-        self._close_socket()
-        program = [sys.executable, "-P", "-m", "emogen_core.rendering.worker", str(theirs.fileno()), *self._command]
-        with self._lock, theirs:
-            self._socket = Connection(ours.detach())
-            if self._over:
-                raise _LostError("the pool is closed")
-            # In a process group of its own, so that Ctrl-C reaches only the parent, which then closes the pool.
-            self.process = subprocess.Popen(  # noqa: S603 - our own interpreter and module
-                program, env=_environment(), pass_fds=[theirs.fileno()], stdin=subprocess.DEVNULL, process_group=0
-            )
-
-    @property
-    def alive(self) -> bool:
-        return self.process.poll() is None
-
-    def wait_ready(self, seconds: float) -> tuple[str, str]:
-        """Wait until it has drawn its first face; return the hashes of its rig and look."""
-        answer = self._receive(seconds)
-        _raise_failure(answer)
-        rig, look = answer[1]
-        return rig, look
-
-    def draw(self, jobs: list[_Job], seconds: float) -> tuple[Any, ...]:
-        assert self._socket is not None
-        try:
-            self._socket.send((jobs[0].identity, np.stack([job.weights for job in jobs]), jobs[0].settings))
-        except OSError as error:
-            raise _LostError("the drawing process died") from error
-        return self._receive(seconds)
-
-    def kill(self, *, for_good: bool = False) -> None:
-        with self._lock:
-            self._over |= for_good
-            self.process.kill()
-            self.process.wait()
-
-    def _close_socket(self) -> None:
-        if self._socket is not None:
-            self._socket.close()
-
-    def _receive(self, seconds: float) -> tuple[Any, ...]:
-        assert self._socket is not None
-        try:
-            if not self._socket.poll(max(0.0, seconds)):
-                raise _LostError(f"the drawing process gave no answer within {seconds:.0f} s")
-            answer: tuple[Any, ...] = self._socket.recv()
-        except (EOFError, OSError) as error:
-            raise _LostError("the drawing process died") from error
-        return answer
-
-
-def _environment() -> dict[str, str]:
-    """Return the worker's environment: it finds every module that this process finds, wherever it was started."""
-    root = str(Path(__file__).resolve().parents[2])
-    return {**os.environ, **_ENVIRONMENT, "PYTHONPATH": os.pathsep.join([root, *filter(None, sys.path)])}
-
-
 def _alike(a: _Job, b: _Job) -> bool:
     """Faces that were lost once are drawn alone."""
     same = (a.identity, a.settings, a.priority, a.weights.shape) == (
@@ -315,12 +237,6 @@ def _alike(a: _Job, b: _Job) -> bool:
         b.weights.shape,
     )
     return same and not a.attempts and not b.attempts
-
-
-def _raise_failure(answer: tuple[Any, ...]) -> None:
-    if answer[0] == "failed":
-        _, kind, sentence = answer
-        raise {"gl": MissingGLError, "input": InvalidInputError}.get(kind, RenderingError)(sentence)
 
 
 def _fail(job: _Job, error: Exception) -> None:

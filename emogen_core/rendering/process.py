@@ -1,0 +1,117 @@
+"""The pool's end of one drawing process: starting it, asking it, giving it up.
+
+Workers are separate programs rather than forks, because a GL context does not survive a fork and because Mesa and BLAS
+read their thread counts from the environment when they are loaded.
+"""
+
+from __future__ import annotations
+
+import os
+import socket
+import subprocess
+import sys
+import threading
+from multiprocessing.connection import Connection
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from emogen_core.errors import InvalidInputError, MissingGLError, RenderingError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from emogen_core.rendering.protocol import RenderSettings
+
+# One core a worker: Mesa's and BLAS's own threads would only get in the way of the other workers.
+_ENVIRONMENT = {
+    "PYOPENGL_PLATFORM": "egl", "LP_NUM_THREADS": "0", "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1",
+    "MKL_NUM_THREADS": "1", "PYTHONUNBUFFERED": "1",
+}  # fmt: skip
+
+
+class LostError(Exception):
+    """The process died or gave no answer in time."""
+
+
+class WorkerProcess:
+    """One drawing process and this end of its socket."""
+
+    def __init__(self, command: list[str]) -> None:
+        self._command = command
+        self._lock = threading.Lock()
+        self._over = False
+        self._socket: Connection[Any, Any] | None = None
+        self.restart()
+
+    def restart(self) -> None:
+        """Start a new process in place of one that is lost."""
+        ours, theirs = socket.socketpair()
+        self._close_socket()
+        program = [sys.executable, "-P", "-m", "emogen_core.rendering.worker", str(theirs.fileno()), *self._command]
+        with self._lock, theirs:
+            self._socket = Connection(ours.detach())
+            if self._over:
+                raise LostError("the pool is closed")
+            # In a process group of its own, so that Ctrl-C reaches only the parent, which then closes the pool.
+            self.process = subprocess.Popen(  # noqa: S603 - our own interpreter and module
+                program, env=_environment(), pass_fds=[theirs.fileno()], stdin=subprocess.DEVNULL, process_group=0
+            )
+
+    @property
+    def alive(self) -> bool:
+        """Whether the process runs."""
+        return self.process.poll() is None
+
+    def wait_ready(self, seconds: float) -> tuple[str, str]:
+        """Wait until it has drawn its first face; return the hashes of its rig and look. Raises as `draw`."""
+        rig, look = self._receive(seconds)
+        return rig, look
+
+    def draw(
+        self, identity: str, weights: NDArray[np.float32], settings: RenderSettings, seconds: float
+    ) -> list[bytes]:
+        """Have a (B, K) batch drawn; return the PNG files.
+
+        Raises:
+            LostError: the process died or took more than ``seconds``.
+            InvalidInputError, RenderingError: it refused, or could not draw.
+        """
+        assert self._socket is not None
+        try:
+            self._socket.send((identity, weights, settings))
+        except OSError as error:
+            raise LostError("the drawing process died") from error
+        pictures: list[bytes] = self._receive(seconds)
+        return pictures
+
+    def kill(self, *, for_good: bool = False) -> None:
+        """End the process at once; ``for_good`` refuses a restart."""
+        with self._lock:
+            self._over |= for_good
+            self.process.kill()
+            self.process.wait()
+
+    def _close_socket(self) -> None:
+        if self._socket is not None:
+            self._socket.close()
+
+    def _receive(self, seconds: float) -> Any:
+        """Return what the process answers, or raise what it could not do."""
+        assert self._socket is not None
+        try:
+            if not self._socket.poll(max(0.0, seconds)):
+                raise LostError(f"the drawing process gave no answer within {seconds:.0f} s")
+            told, *rest = self._socket.recv()
+        except (EOFError, OSError) as error:
+            raise LostError("the drawing process died") from error
+        if told == "failed":
+            kind, sentence = rest
+            raise {"gl": MissingGLError, "input": InvalidInputError}.get(kind, RenderingError)(sentence)
+        return rest[0]
+
+
+def _environment() -> dict[str, str]:
+    """Return the worker's environment: it finds every module that this process finds, wherever it was started."""
+    root = str(Path(__file__).resolve().parents[2])
+    return {**os.environ, **_ENVIRONMENT, "PYTHONPATH": os.pathsep.join([root, *filter(None, sys.path)])}
