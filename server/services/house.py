@@ -16,6 +16,7 @@ from .journal import Journal
 from .participation import Participations
 from .portrait_files import PortraitFiles
 from .portraits import Portraits
+from .renewal import renew_portraits
 from .replay import Replay
 from .studies import Studies
 from .tokens import Tokens
@@ -69,6 +70,7 @@ def build_house(settings: Settings, rig: Rig, drawer: PortraitDrawer) -> House:
     files = PortraitFiles(settings.data_dir / "portraits")
     portraits = Portraits(drawer, files, database, settings.portrait_memory_mb * 2**20)
     journal = Journal(database, rig, portraits)
+    renew_portraits(journal)
     return House(
         settings,
         journal,

@@ -90,7 +90,7 @@ class Portraits:
         """Return the promise of a portrait that a face in the database has.
 
         Raises:
-            NotFoundError: no face has this portrait.
+            NotFoundError: no face has this portrait, or it is of an older look.
         """
         with self._lock:
             job = self._jobs.get(key)
@@ -148,8 +148,10 @@ class Portraits:
             if found is None:
                 raise NotFoundError("There is no such portrait.")
             face, version = found
-            settings = settings_of(config_of(tx, version))
-        return Sketch(face.identity, unpack_weights(face.weights), settings)
+            sketch = Sketch(face.identity, unpack_weights(face.weights), settings_of(config_of(tx, version)))
+        if self.key(sketch.identity, sketch.weights, sketch.settings) != key:
+            raise NotFoundError("This face has a new picture since the server was updated. Reload the page.")
+        return sketch
 
     def _want(self, key: str, sketch: Sketch, priority: int) -> Future[bytes]:
         with self._lock:

@@ -75,6 +75,22 @@ def faces_on_screen(tx: Tx, trial: Trial) -> Sequence[Face]:
     ).all()
 
 
+def running_with(tx: Tx, rig_hash: str) -> Sequence[Participation]:
+    """Return the participations that are running on a rig."""
+    return tx.scalars(
+        select(Participation).where(Participation.outcome.is_(None), Participation.rig_hash == rig_hash)
+    ).all()
+
+
+def faces_in_view(tx: Tx, participation: Participation) -> list[Face]:
+    """Return the faces that a participation's present page shows."""
+    trial = trial_at(tx, participation.id, participation.position)
+    if trial is None or trial.started_at is None:
+        return []
+    final = face(tx, trial.final_face_id) if trial.final_face_id else None
+    return [*faces_on_screen(tx, trial), *([final] if final else [])]
+
+
 def face(tx: Tx, face_id: str) -> Face | None:
     """Return a face."""
     return tx.get(Face, face_id)

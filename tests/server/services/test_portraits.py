@@ -7,6 +7,7 @@ from starlette.testclient import TestClient
 
 from emogen_core.errors import RenderingError
 from server.app import create_app
+from server.services.errors import NotFoundError
 from server.services.portraits import AHEAD, URGENT
 from tests.conftest import PIXEL
 from tests.server.walker import Walker
@@ -124,6 +125,25 @@ def test_another_process_finds_the_file_or_draws_from_the_row(house, study, sett
     assert unseen.portraits.request(key).result(5) == PIXEL
     other.close()
     unseen.close()
+
+
+def test_a_new_look_has_new_addresses(house, study, settings, rig):
+    from server.services.house import build_house
+    from tests.conftest import FakeDrawer
+
+    with TestClient(create_app(house)) as client:
+        state = Walker(client, study.links[0]).start()
+        address = client.post(f"/s/{study.links[0]}", headers={"accept": "application/json"}).json()["address"]
+    dressed = FakeDrawer(rig)
+    dressed.key = lambda identity, weights, size: house.portraits.key(identity, weights, size)[::-1]
+    after = build_house(settings.model_copy(update={"data_dir": settings.data_dir / "moved",
+        "database_url": settings.url}), rig, dressed)  # fmt: skip
+    old = keys(state)
+    with pytest.raises(NotFoundError):
+        after.portraits.request(old[0])
+    assert after.portraits.request(old[0][::-1]).result(5) == PIXEL
+    assert after.participations.state(address.rsplit("/", 1)[-1])["step"] == "consent"
+    after.close()
 
 
 @pytest.mark.parametrize("tag", ['"{}"', 'W/"{}"', '"x", "{}"', "*"])
