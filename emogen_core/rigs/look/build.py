@@ -183,7 +183,7 @@ def _relaxed(
     kind = atlas.layers["skin"].surface[:, 0]
     deep, teeth = kind < 0.85, kind < 0.2
     light[deep, 0] = 0.22 + 0.78 * light[deep, 0]
-    light[teeth, 0] = 0.55 + 0.45 * light[teeth, 0]
+    light[teeth, 0] = 0.66 + 0.34 * light[teeth, 0]
     light[deep, 1] = np.maximum(light[deep, 1], 0.62 * light[deep, 0])
     return light
 

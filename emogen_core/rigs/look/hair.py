@@ -32,7 +32,7 @@ def above_hairline(place: NDArray[np.floating], recede: float = 0.0) -> NDArray[
 
 def hair_cover(place: NDArray[np.float32], ear: NDArray[np.float32], recede: float = 0.0) -> NDArray[np.float32]:
     """Return (n,) how much a place belongs to the hair, 0 to 1; ``ear`` is 1 on the ears."""
-    ragged = 0.020 * fractal(place, {14: 0.5, 40: 0.7, 90: 0.7}, 9)
+    ragged = 0.020 * np.clip(fractal(place, {14: 0.5, 40: 0.7, 90: 0.7}, 9), -1.1, 1.1)
     grown = step(above_hairline(place, recede) + ragged, -0.05, 0.10)
     return np.asarray(grown * (1 - step(ear, 0.05, 0.4)), np.float32)
 

@@ -93,7 +93,7 @@ def _image(canvas: Canvas, image: NDArray[np.float32]) -> NDArray[np.float32]:
 def _blood(canvas: Canvas, ear: NDArray[np.float32]) -> NDArray[np.float32]:
     """Where skin is redder: cheeks, nose and wings, ears, chin, lids; the forehead is paler."""
     spots = (
-        (0.27, 0.40, -0.27, 0.20, 0.17), (0.30, 0.0, -0.385, 0.13, 0.11), (0.22, 0.15, -0.43, 0.06, 0.06),
+        (0.20, 0.40, -0.27, 0.21, 0.17), (0.22, 0.0, -0.385, 0.13, 0.11), (0.22, 0.15, -0.43, 0.06, 0.06),
         (0.14, 0.0, -0.93, 0.20, 0.13), (0.12, 0.30, 0.06, 0.17, 0.06), (0.09, 0.27, -0.15, 0.15, 0.06),
         (-0.10, 0.0, 0.50, 0.45, 0.20),
     )  # fmt: skip
