@@ -1,4 +1,4 @@
-"""Fixtures of all tests that drive a browser; one server and one Chromium a session."""
+"""Fixtures of all tests that drive a browser: one server and one Chromium a folder, gone before other tests begin."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from .player import Player
 from .stage import chromium, running
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def stage(tmp_path_factory):
     with running(tmp_path_factory.mktemp("stage")) as started:
         yield started
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def browser():
     with chromium() as started:
         yield started
