@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -30,32 +29,59 @@ def emogen(data_dir, *arguments, timeout=120, **more):
 
 
 class Server:
+    """Use it as a context manager: whatever a test does, the process ends and nothing stays open."""
+
     def __init__(self, data_dir):
-        self.errors = (data_dir.parent / "errors.log").open("ab")
-        self.process = subprocess.Popen(
-            [*EMOGEN, "serve", "--port", "0"], env=environment(data_dir), stdout=subprocess.PIPE, stderr=self.errors,
-            text=True,
-        )  # fmt: skip
-        self.said = []
-        while not any("/admin" in line for line in self.said):
-            line = self.process.stdout.readline()
-            assert line, (data_dir.parent / "errors.log").read_text()
-            self.said.append(line)
-        self.base, self.link = re.search(r"(http://[^/]+)/s/(\S+)", "".join(self.said)).groups()
+        self.log = data_dir.parent / "errors.log"
+        with self.log.open("ab") as errors:
+            self.process = subprocess.Popen(
+                [*EMOGEN, "serve", "--port", "0"], env=environment(data_dir), stdout=subprocess.PIPE, stderr=errors,
+                text=True,
+            )  # fmt: skip
+        try:
+            said = self._greeting()
+        except BaseException:
+            self.kill()
+            raise
+        self.said = said
+        self.base, self.link = re.search(r"(http://[^/]+)/s/(\S+)", said).groups()
         self.client = httpx2.Client(base_url=self.base, timeout=60)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.kill()
+        self.client.close()
 
     def kill(self):
         """As the power cut does."""
-        self.process.send_signal(signal.SIGKILL)
+        self.process.kill()
         self._end()
 
     def stop(self):
+        """As the service manager does; return the exit status."""
         self.process.terminate()
         self._end()
         return self.process.returncode
 
+    def portrait(self, address):
+        """A portrait, however long this machine takes to draw it."""
+        reply = self.client.get(address)
+        for _ in range(20):
+            if reply.status_code != 503:
+                break
+            reply = self.client.get(address)
+        return reply
+
+    def _greeting(self):
+        said = ""
+        while "/admin" not in said:
+            line = self.process.stdout.readline()
+            assert line, self.log.read_text()
+            said += line
+        return said
+
     def _end(self):
         self.process.wait(30)
         self.process.stdout.close()
-        self.client.close()
-        self.errors.close()

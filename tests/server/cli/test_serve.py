@@ -17,37 +17,34 @@ def data_dir(tmp_path):
 
 
 def test_nothing_acknowledged_is_lost_to_kill_9(data_dir):
-    first = Server(data_dir)
-    walker = Walker(first.client, first.link)
-    acknowledged = []
-    state = walker.state()
-    for _ in range(9):
-        state = walker.step(state)
-        acknowledged.append((walker.sent[-1], state))
-    assert state["step"] == "evolve"
-    first.kill()
+    with Server(data_dir) as first:
+        walker = Walker(first.client, first.link)
+        acknowledged = []
+        state = walker.state()
+        for _ in range(9):
+            state = walker.step(state)
+            acknowledged.append((walker.sent[-1], state))
+        assert state["step"] == "evolve"
+        first.kill()
 
-    second = Server(data_dir)
-    assert second.link == first.link, "the demonstration study was kept, not made again"
-    walker.client = second.client
-    assert walker.state() == state
-    for body, reply in acknowledged:
-        assert walker.client.post(f"{walker.address}/answers", json=body).json() == reply
-    for _ in range(3):
-        state = walker.step(state)
-    assert state["trial"]["generation"] == acknowledged[-1][1]["trial"]["generation"] + 3
-    picture = second.client.get(state["trial"]["faces"][0]["portrait"])
-    assert picture.content.startswith(b"\x89PNG")
-    assert second.stop() in {0, -15}
+    with Server(data_dir) as second:
+        assert second.link == first.link, "the demonstration study was kept, not made again"
+        walker.client = second.client
+        assert walker.state() == state
+        for body, reply in acknowledged:
+            assert walker.client.post(f"{walker.address}/answers", json=body).json() == reply
+        for _ in range(3):
+            state = walker.step(state)
+        assert state["trial"]["generation"] == acknowledged[-1][1]["trial"]["generation"] + 3
+        assert second.portrait(state["trial"]["faces"][0]["portrait"]).content.startswith(b"\x89PNG")
+        assert second.stop() in {0, -15}
 
 
 def test_the_first_start_prints_a_link_and_a_one_time_set_up_link(data_dir):
-    server = Server(data_dir)
-    said = "".join(server.said)
-    key = re.search(r"/admin/setup\?key=([0-9A-Z-]+)", said).group(1)
-    assert len(key) == 19
-    assert server.client.get(f"/admin/setup?key={key}").status_code == 200
-    server.stop()
+    with Server(data_dir) as server:
+        key = re.search(r"/admin/setup\?key=([0-9A-Z-]+)", server.said).group(1)
+        assert len(key) == 19
+        assert server.client.get(f"/admin/setup?key={key}").status_code == 200
 
 
 def test_a_taken_port_is_one_sentence(data_dir):
@@ -70,13 +67,14 @@ def test_a_wrong_setting_is_one_sentence(data_dir):
 
 
 def test_simulated_participants_visit_a_running_server(data_dir):
-    server = Server(data_dir)
-    token = Tokens(Database(f"sqlite:///{data_dir}/emogen.db")).create("simulation", ["simulate"])
-    there = ["--url", server.base, "--link", server.link]
-    done = emogen(data_dir, "simulate", *there, "--token", token, "--json")
-    assert done.returncode == 0, done.stderr
-    assert len(json.loads(done.stdout)["trials"]) == 4
-    refused = emogen(data_dir, "simulate", *there, "--token", "emg_guess")
-    assert refused.returncode == 1
-    assert "401" in refused.stderr
-    server.stop()
+    with Server(data_dir) as server:
+        database = Database(f"sqlite:///{data_dir}/emogen.db")
+        token = Tokens(database).create("simulation", ["simulate"])
+        database.close()
+        there = ["--url", server.base, "--link", server.link]
+        done = emogen(data_dir, "simulate", *there, "--token", token, "--json")
+        assert done.returncode == 0, done.stderr
+        assert len(json.loads(done.stdout)["trials"]) == 4
+        refused = emogen(data_dir, "simulate", *there, "--token", "emg_guess")
+        assert refused.returncode == 1
+        assert "401" in refused.stderr
