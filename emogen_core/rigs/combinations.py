@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from emogen_core.rigs.fitting import Head
     from emogen_core.rigs.head_mesh import HeadGeometry
 
-Method = Literal["max", "two", "cancel", "close"]
+Method = Literal["max", "two", "cancel", "close", "undo"]
 
 KEPT = 60
 SMALLEST_GAIN = 2
@@ -41,14 +41,15 @@ OVERLAP_MILLIMETRES = 0.3
 FACTOR_SMOOTHING = 6
 
 # Always kept. The larger closure or lift of the brows wins, though doubling it would fold nothing; a closing lid takes
-# back a raised one; pressed lips stay shut on an open jaw.
-RULES: Mapping[tuple[str, str], Method] = {
+# back a raised or lowered one, and what two others take from each other; pressed lips stay shut on an open jaw.
+RULES: Mapping[tuple[str, ...], Method] = {
     ("lidsClose", "lidsTight"): "max",
     ("lidsClose", "lidsSlit"): "max",
-    ("lidsClose", "gazeDown"): "max",
+    ("lidsClose", "gazeDown"): "cancel",
     ("lidsSlit", "gazeDown"): "max",
     ("lidsTight", "lidsSlit"): "max",
     ("lidsClose", "lidUpperRaise"): "cancel",
+    ("lidsClose", "lidsSlit", "gazeDown"): "undo",
     ("browInnerUp", "browOblique"): "max",
     ("browInnerUp", "browRaise"): "max",
     ("browOuterUp", "browArch"): "max",
@@ -70,16 +71,16 @@ _FAMILIES: Mapping[str, frozenset[str]] = {
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """A corrective as chosen: its two genes, how it is derived, and what it gained at weights (1, 1)."""
+    """A corrective as chosen: its genes, how it is derived, and what it gained with all of them at 1."""
 
-    parents: tuple[str, str]
+    parents: tuple[str, ...]
     method: Method
     gain: int
 
     @property
     def combination(self) -> Combination:
         """The corrective as the rig knows it."""
-        alone = self.method in {"cancel", "close"}
+        alone = self.method in {"cancel", "close", "undo"}
         return Combination("+".join(self.parents), self.parents, None if alone else family(self.parents))
 
 
@@ -100,9 +101,12 @@ class Deriver:
 
     def derive(self, pair: Pair, head: Head, genes: Mapping[str, NDArray[np.float64]]) -> NDArray[np.float64]:
         """Return the (N, 3) corrective of a pair on a head with its genes' (N, 3) offsets."""
-        first, second = (genes[name] for name in pair.parents)
         if pair.method == "close":
             return self._shut
+        if pair.method == "undo":
+            undone = pair.parents[1:]
+            return -self.derive(Pair(undone, RULES[undone], 0), head, genes)
+        first, second = (genes[name] for name in pair.parents)
         if pair.method == "cancel":
             return self._on_flesh(-second)
         corrective = self._saturating(first, second, pair.method)
@@ -112,7 +116,7 @@ class Deriver:
         return self._on_flesh(cleared(self.geometry, head, both + corrective) - both)
 
     def best(
-        self, parents: tuple[str, str], head: Head, gauge: Gauge, genes: Mapping[str, NDArray[np.float64]]
+        self, parents: tuple[str, ...], head: Head, gauge: Gauge, genes: Mapping[str, NDArray[np.float64]]
     ) -> Pair:
         """Return the better saturation of a pair, with its gain over adding the two."""
         added = head.neutral + genes[parents[0]] + genes[parents[1]]

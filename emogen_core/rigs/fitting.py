@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from emogen_core.rigs.eyeballs import CORNEA_BULGE, CORNEA_DEGREES, RADIUS
+from emogen_core.rigs.eyeballs import CORNEA_BULGE, CORNEA_DEGREES, GAZE_DEGREES, RADIUS
 from emogen_core.rigs.gene_table import RECIPES
 from emogen_core.rigs.lids import closing_weight
 from emogen_core.rigs.lips import seal_lips
@@ -88,9 +88,10 @@ def cleared(geometry: HeadGeometry, head: Head, offsets: Mesh) -> Mesh:
 
 
 def _clear_radius(points: Mesh, distance: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return how far from the centre skin must be in the direction of (n, 3) points; the cornea bulges."""
+    """Return how far from the centre skin must be in the direction of (n, 3) points, wherever the cornea looks."""
     angle = np.degrees(np.arccos(np.clip(points[:, 2] / np.maximum(distance, 1e-9), -1, 1)))
-    bulge = np.clip(1 - (angle / CORNEA_DEGREES) ** 2, 0, None) ** 2
+    off_cornea = np.maximum(angle - GAZE_DEGREES["LookDown"], 0)
+    bulge = np.clip(1 - (off_cornea / CORNEA_DEGREES) ** 2, 0, None) ** 2
     radius: NDArray[np.float64] = RADIUS * (1 + EYEBALL_MARGIN + CORNEA_BULGE * bulge)
     return radius
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 # Lips that just touch would collide in every second rounding.
 CLEARANCE = 0.06
-ROUNDS = 10
+ROUNDS = 14
 
 _X = np.arange(-30.0, 30.5, 1.0)
 _Z = np.arange(0.0, 50.0, 0.5)
