@@ -25,6 +25,7 @@ check: $(VENV)/.test ## lint, format, types, import rules
 bench: $(VENV)/.test ## measure drawing and turnaround on this machine
 	$(BIN)/emogen bench render --json
 	$(BIN)/emogen bench turnaround --json
+	$(BIN)/python -m tests.browser.turnaround
 
 install: $(VENV)/.serve ## install Emogen into .venv without starting it
 

@@ -35,17 +35,12 @@ def run(*command: str | Path, cwd: Path, **env: str) -> str:
 def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A fresh environment that holds the wheel; only the dependencies come from the environment of the tests."""
     folder = tmp_path_factory.mktemp("wheel")
-    run(
-        sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--no-build-isolation", "--wheel-dir", folder, ROOT,
-        cwd=folder,
-    )  # fmt: skip
+    pip = (sys.executable, "-m", "pip")
+    run(*pip, "wheel", "--quiet", "--no-deps", "--no-build-isolation", "--wheel-dir", folder, ROOT, cwd=folder)
     venv.create(folder / "env", with_pip=False, symlinks=True)
     (wheel,) = folder.glob("emogen_study-*.whl")
     target = next((folder / "env").glob("lib/python*/site-packages"))
-    run(
-        sys.executable, "-m", "pip", "--python", folder / "env", "install", "--quiet", "--no-deps", wheel,
-        cwd=folder,
-    )  # fmt: skip
+    run(*pip, "--python", folder / "env", "install", "--quiet", "--no-deps", wheel, cwd=folder)
     # A plain path line: the editable install of the checkout, itself a .pth file there, is not followed.
     (target / "dependencies.pth").write_text(sysconfig.get_path("purelib"))
     return folder / "env"
