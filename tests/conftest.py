@@ -31,7 +31,7 @@ class FakeDrawer:
         self.lock = threading.Lock()
 
     def key(self, identity, weights, settings):
-        return portrait_key(self.rig.hash, "no look", identity, weights, settings)
+        return portrait_key(self.rig.hash, "no look", "fake", identity, weights, settings)
 
     def submit(self, identity, weights, settings, priority):
         future = Future()

@@ -17,20 +17,21 @@ if TYPE_CHECKING:
 PICTURE_VERSION = 1
 
 
-def portrait_key(
-    rig_hash: str, look_hash: str, identity: str, weights: NDArray[np.float32], settings: RenderSettings
+def portrait_key(  # noqa: PLR0913, PLR0917 - all that a picture depends on
+    rig_hash: str, look_hash: str, backend: str, identity: str, weights: NDArray[np.float32], settings: RenderSettings
 ) -> str:
     """Return the SHA-256 (hexadecimal) that names one portrait.
 
     Args:
         rig_hash: hash of the rig file.
         look_hash: hash of the look file.
+        backend: name of the renderer; two renderers never share a picture.
         identity: the head that wears the rig.
         weights: (K,) weights of all shapes.
         settings: size and background.
     """
     head = [
-        PICTURE_VERSION, rig_hash, look_hash, identity,
+        PICTURE_VERSION, rig_hash, look_hash, backend, identity,
         settings.width, settings.height, list(settings.background),
     ]  # fmt: skip
     digest = hashlib.sha256(json.dumps(head, separators=(",", ":")).encode())

@@ -129,7 +129,7 @@ class RenderPool:
     def key(self, identity: str, weights: NDArray[np.float32], settings: RenderSettings) -> str:
         """Return the content key (SHA-256, hexadecimal) of the portrait that `submit` would give for the same face."""
         rig, look = self._hashes
-        return portrait_key(rig, f"{look}/{self._command[0]}", identity, weights, settings)
+        return portrait_key(rig, look, self._command[0], identity, weights, settings)
 
     def close(self) -> None:
         """End all workers; faces not drawn yet fail with `RenderingError`. Never waits for a worker."""

@@ -26,15 +26,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PoolDrawer:
-    """Draws in the processes of a pool, under keys of one rig and look."""
+    """Draws in the processes of a pool."""
 
     pool: RenderPool
-    rig_hash: str
-    look_hash: str
 
     def key(self, identity: str, weights: NDArray[np.float32], settings: RenderSettings) -> str:
         """Return the content key of a portrait."""
-        return portrait_key(self.rig_hash, self.look_hash, identity, weights, settings)
+        return self.pool.key(identity, weights, settings)
 
     def submit(
         self, identity: str, weights: NDArray[np.float32], settings: RenderSettings, priority: int
@@ -53,10 +51,11 @@ class NoDrawer:
 
     rig_hash: str
     look_hash: str
+    backend: str
 
     def key(self, identity: str, weights: NDArray[np.float32], settings: RenderSettings) -> str:
-        """Return the content key of a portrait."""
-        return portrait_key(self.rig_hash, self.look_hash, identity, weights, settings)
+        """Return the content key that the pool would give."""
+        return portrait_key(self.rig_hash, self.look_hash, self.backend, identity, weights, settings)
 
     def submit(self, *_: object) -> Future[bytes]:
         """Refuse."""
@@ -73,12 +72,11 @@ def open_house(settings: Settings, *, drawing: bool = True) -> House:
         EmogenError: this machine cannot draw, or the rig is damaged; one sentence says what to do.
     """
     rig = load_bundled_rig()
-    look = look_for(rig)
     if not drawing:
-        return build_house(settings, rig, NoDrawer(rig.hash, look.hash))
+        return build_house(settings, rig, NoDrawer(rig.hash, look_for(rig).hash, settings.renderer))
     pool = RenderPool(settings.render_workers or None, settings.renderer)
     try:
-        return build_house(settings, rig, PoolDrawer(pool, rig.hash, look.hash))
+        return build_house(settings, rig, PoolDrawer(pool))
     except BaseException:
         pool.close()
         raise

@@ -1,4 +1,4 @@
-"""Pictures of every participant page: `python -m tests.browser.screenshots docs/screenshots`."""
+"""Pictures of every page: `python -m tests.browser.screenshots docs/screenshots`."""
 
 from __future__ import annotations
 
@@ -19,6 +19,11 @@ SHOWN = {
     "light": {**STUDIES["pictures"], **SHORT},
     "dark": {**STUDIES["pictures"], **SHORT, "surround": "dark"},
     "closed": STUDIES["pictures"],
+}
+ACCOUNT = {
+    "Your name": "Ines Marchetti",
+    "Email address": "ines.marchetti@westbrook.example",
+    "Password": "four unrelated quiet words",
 }
 
 
@@ -46,6 +51,7 @@ def main():
             context = browser.new_context(**options)
             others(stage, Camera(folder, device, context.new_page()))
             context.close()
+        desk(stage, Camera(folder, "desktop", browser.new_page(**DESKTOP)))
 
 
 def participation(stage, camera):
@@ -158,6 +164,26 @@ def others(stage, camera):
     camera.take("unknown-link", whole=True)
     page.goto(stage.link("closed"))
     camera.take("study-closed", whole=True)
+
+
+def desk(stage, camera):
+    """The experimenter's pages, after the participations above."""
+    page = camera.page
+    page.goto(stage.setup)
+    camera.take("admin-setup", whole=True)
+    for label, value in ACCOUNT.items():
+        page.get_by_label(label).fill(value)
+    page.get_by_role("button", name="Create the account").click()
+    page.wait_for_url("**/admin/studies")
+    camera.take("admin-studies", whole=True)
+    page.get_by_role("link", name=STUDIES["pictures"]["title"]).first.click()
+    page.wait_for_load_state()
+    camera.take("admin-study", whole=True)
+    page.goto(f"{stage.address}/admin/tokens")
+    camera.take("admin-tokens", whole=True)
+    page.context.clear_cookies()
+    page.goto(f"{stage.address}/admin/login")
+    camera.take("admin-sign-in", whole=True)
 
 
 if __name__ == "__main__":

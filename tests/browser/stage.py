@@ -51,6 +51,7 @@ class Stage:
 
     folder: Path
     address: str
+    setup: str
     links: dict[str, str] = field(default_factory=dict)
 
     def link(self, study, query=""):
@@ -78,8 +79,8 @@ def drawing():
 def running(folder, studies=STUDIES, **environment):
     """Serve studies from a folder, in a process of its own."""
     links = _make_studies(folder, studies)
-    with _process(folder, environment) as address:
-        yield Stage(folder, address, links)
+    with _process(folder, environment) as (address, setup):
+        yield Stage(folder, address, setup, links)
 
 
 def _make_studies(folder, studies):
@@ -98,7 +99,7 @@ def _link(house, name, changes):
 
 @contextmanager
 def _process(folder, environment):
-    """Start `emogen serve` on a free port; it says on its first line where it listens."""
+    """Start `emogen serve` on a free port; it says in its first lines where it listens and how to set it up."""
     told = {"EMOGEN_DATA_DIR": str(folder), "EMOGEN_PORT": "0", "EMOGEN_RENDERER": drawing(), **environment}
     command = [str(Path(sys.executable).parent / "emogen"), "serve"]
     with (folder / "server.log").open("w", encoding="utf-8") as log:
@@ -107,16 +108,16 @@ def _process(folder, environment):
         )
         with process:
             try:
-                yield _address(process, folder)
+                yield _links(process, folder)
             finally:
                 process.terminate()
 
 
-def _address(process, folder):
+def _links(process, folder):
     assert process.stdout is not None
     for line in process.stdout:
-        if found := re.search(r"http://[\w.]+:\d+", line):
-            return found[0]
+        if found := re.search(r"(http://[\w.]+:\d+)/admin(\S*)", line):
+            return found[1], found[0]
     raise RuntimeError((folder / "server.log").read_text(encoding="utf-8"))
 
 

@@ -7,11 +7,11 @@ from hypothesis import strategies as st
 from emogen_core.rendering.keys import portrait_key
 from emogen_core.rendering.protocol import SURROUND_DARK, RenderSettings
 
-FACE = ("rig", "look", "female", np.array([0, 0.5, 1], np.float32), RenderSettings())
+FACE = ("rig", "look", "pyrender", "female", np.array([0, 0.5, 1], np.float32), RenderSettings())
 
 
 def key(**changes):
-    names = ("rig_hash", "look_hash", "identity", "weights", "settings")
+    names = ("rig_hash", "look_hash", "backend", "identity", "weights", "settings")
     return portrait_key(**{**dict(zip(names, FACE, strict=True)), **changes})
 
 
@@ -20,6 +20,7 @@ def test_every_part_counts():
         key(),
         key(rig_hash="rig2"),
         key(look_hash="look2"),
+        key(backend="software"),
         key(identity="male"),
         key(weights=np.array([0, 0.5, 0.999], np.float32)),
         key(settings=RenderSettings(401, 480)),
