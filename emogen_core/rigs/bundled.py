@@ -9,6 +9,7 @@ import numpy as np
 from emogen_core.face.rig import Adjustment, Rig
 from emogen_core.face.rig_file import save_rig
 from emogen_core.rigs.canvas import make_canvas, unit
+from emogen_core.rigs.collision_bake import settle_neutrals
 from emogen_core.rigs.collision_shapes import COLLISION_SHAPES, collision_offsets, mouth_regions
 from emogen_core.rigs.combinations import Deriver, choose_pairs
 from emogen_core.rigs.emotion_sets import EMOTION_SETS
@@ -83,7 +84,7 @@ def build_rig(source: Path, out_path: Path) -> Rig:
         mirror=geometry.mirror.astype(np.int32),
         adjustments=_adjustments(deriver, pairs, heads, raw, core | combined),
     )
-    return save_rig(rig, out_path)
+    return save_rig(settle_neutrals(rig), out_path)
 
 
 def make_heads(source: Source, geometry: HeadGeometry, low: NDArray[np.float64]) -> dict[str, Head]:

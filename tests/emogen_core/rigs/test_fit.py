@@ -54,7 +54,8 @@ def test_closed_eyes_stay_closed_whatever_else_the_lids_do(others):
 
 @pytest.mark.parametrize("identity", RIG.identities)
 def test_no_tooth_to_speak_of_shows_at_rest(identity):
-    assert seen(face(identity), ("teeth_upper", "teeth_lower"), *MOUTH) <= 12
+    """At most one square millimetre, of which a slit at the corners is made: lips that touch nowhere leave one."""
+    assert seen(face(identity), ("teeth_upper", "teeth_lower"), *MOUTH) <= 16
 
 
 @pytest.mark.parametrize("gene", ["mouthPress", "mouthSmile", "mouthFrown", "chinRaise", "mouthPucker"])

@@ -1,0 +1,119 @@
+"""What the collision stage needs of a rig and an identity: the lower lip and the anchors as linear functions.
+
+Only the lower lip's patch and the anchors are ever evaluated: a face costs one small product, not the whole head.
+Anchors are barycentric points, so they are topological and fit every identity (EmoGen 2021, section III-A).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from emogen_core.correctives.collision.regions import has_regions, judge_anchors, solver_anchors, target_faces
+from emogen_core.errors import InvalidInputError, expected
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from emogen_core.face.rig import Rig
+
+# Correctives of a type: outer left, inner left, inner right, outer right.
+ZONES = 4
+# Millimetres within which a place is another's mirror image: above a rig file's rounding, below any edge.
+_SAME = 0.03
+
+
+@dataclass(frozen=True, eq=False)
+class CollisionModel:
+    """An identity's mouth as linear functions of the weights: ``R`` patch vertices, ``F`` faces, ``A`` anchors.
+
+    Attributes:
+        triangles: (F, 3) the lower lip's faces, indices into the patch's vertices.
+        kind: (A,) `LIPS` or `TEETH`, the type as which an anchor collides.
+        patch: (R, 3) neutral patch vertices, millimetres.
+        anchors: (A, 3) neutral anchors, millimetres.
+        patch_offsets: (K, R, 3) of every shape.
+        anchor_offsets: (K, A, 3) of every shape; its last eight rows are eq. 2.
+        mirror: (R,) mirror image of every patch vertex, and ``anchor_mirror`` (A,) of every anchor; empty for a head
+            that is not symmetric.
+    """
+
+    triangles: NDArray[np.intp]
+    kind: NDArray[np.intp]
+    patch: NDArray[np.float64]
+    anchors: NDArray[np.float64]
+    patch_offsets: NDArray[np.float64]
+    anchor_offsets: NDArray[np.float64]
+    mirror: NDArray[np.intp]
+    anchor_mirror: NDArray[np.intp]
+
+    @cached_property
+    def left(self) -> NDArray[np.intp]:
+        """Indices of the anchors on the head's left half."""
+        return np.flatnonzero(self.anchors[:, 0] > 0)
+
+    @cached_property
+    def half(self) -> CollisionModel:
+        """The same mouth with the left half's anchors only."""
+        left = self.left
+        offsets = self.anchor_offsets[:, left]
+        return replace(self, kind=self.kind[left], anchors=self.anchors[left], anchor_offsets=offsets)
+
+    @property
+    def unit_patch(self) -> NDArray[np.float64]:
+        """(8, R, 3) offsets of the collision correctives at the patch's vertices."""
+        return self.patch_offsets[-2 * ZONES :]
+
+    @property
+    def unit_anchors(self) -> NDArray[np.float64]:
+        """(8, A, 3) offsets of the collision correctives at the anchors (eq. 2)."""
+        return self.anchor_offsets[-2 * ZONES :]
+
+    def evaluate(self, weights: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return patch (B, R, 3) and anchors (B, A, 3) of faces given by (B, K) weights."""
+        return _worn(self.patch, self.patch_offsets, weights), _worn(self.anchors, self.anchor_offsets, weights)
+
+
+@lru_cache(maxsize=64)
+def collision_model(rig: Rig, identity: str, *, dense: bool = False) -> CollisionModel:
+    """Return the model of an identity, with the anchors solved for or with the judge's many.
+
+    Raises:
+        InvalidInputError: unknown identity, or the rig has no eight collision correctives and mouth regions.
+    """
+    if not has_regions(rig):
+        raise InvalidInputError(f"rig: {expected('8 collision correctives, lips and teeth', rig.collision_shapes)}")
+    patch, local = np.unique(target_faces(rig), return_inverse=True)
+    anchors = judge_anchors(rig) if dense else solver_anchors(rig)
+    neutral, offsets = rig.neutral(identity).astype(np.float64), rig.shape_offsets(identity)
+    places = anchors.sample(neutral[None])[0]
+    return CollisionModel(
+        triangles=local.reshape(-1, 3),
+        kind=anchors.kind,
+        patch=neutral[patch],
+        anchors=places,
+        patch_offsets=offsets[:, patch].astype(np.float64),
+        anchor_offsets=anchors.sample(offsets),
+        mirror=_twins(neutral[patch]),
+        anchor_mirror=_twins(places),
+    )
+
+
+def _worn(
+    neutral: NDArray[np.float64], offsets: NDArray[np.float64], weights: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    # Faces use few of the shapes, and reading the others' offsets costs more than the product.
+    used = weights.any(0)
+    product = weights[:, used] @ offsets[used].reshape(-1, neutral.size)
+    return neutral + product.reshape(len(weights), *neutral.shape)
+
+
+def _twins(places: NDArray[np.float64]) -> NDArray[np.intp]:
+    """Return (n,) the index of the place at every place's mirror image; empty if one has none."""
+    found = cKDTree(places).query(places * (-1, 1, 1))
+    gap, twin = np.asarray(found[0]), np.asarray(found[1], np.intp)
+    return twin if gap.max() < _SAME else np.zeros(0, np.intp)

@@ -1,0 +1,65 @@
+"""Takes the last touches of lips and teeth out of the neutral heads.
+
+Sealed lips touch, and on some heads a tooth stands in the lower lip. Then the neutral itself would be corrected,
+and with it every face. The judge says where something collides; there, and only a few millimetres around, so
+that no slit opens, the head is moved as the collision correctives would.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from emogen_core.correctives.collision.detect import detect
+from emogen_core.correctives.collision.model import ZONES
+from emogen_core.correctives.collision.regions import judge_anchors, target_faces
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from emogen_core.correctives.collision.detect import Contacts
+    from emogen_core.correctives.collision.regions import Anchors
+    from emogen_core.face.rig import Rig
+
+# Millimetres: less than what counts on a face, and what is added to a depth.
+TOLERANCE = 0.07
+MARGIN = 0.0
+ROUNDS = 20
+_REACH = 1.3
+
+
+def settle_neutrals(rig: Rig) -> Rig:
+    """Return the rig with neutrals in which neither lips nor teeth collide."""
+    anchors, target = judge_anchors(rig), target_faces(rig)
+    heads = {name: _settled(rig, mesh, anchors, target) for name, mesh in rig.neutrals.items()}
+    return replace(rig, neutrals=heads)
+
+
+def _settled(rig: Rig, neutral: NDArray[np.float32], anchors: Anchors, target: NDArray[np.intp]) -> NDArray[np.float32]:
+    mesh = neutral.astype(np.float64)
+    lips, teeth = (_opening(part) for part in np.split(rig.offsets[-2 * ZONES :].astype(np.float64), 2))
+    for _ in range(ROUNDS):
+        points = anchors.sample(mesh[None])[0]
+        found = detect(points, anchors.kind, mesh, target, tolerance=TOLERANCE)
+        if not found.collides:
+            break
+        mesh += lips * _bump(mesh, points, found.lips) + teeth * _bump(mesh, points, found.teeth)
+    return mesh.astype(np.float32)
+
+
+def _opening(correctives: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return (N, 3) the motion of all zones together, scaled to part what collides by one millimetre."""
+    together = correctives.sum(0)
+    opening: NDArray[np.float64] = together / (together.max() - together.min())
+    return opening
+
+
+def _bump(mesh: NDArray[np.float64], points: NDArray[np.float64], contacts: Contacts) -> NDArray[np.float64]:
+    """Return (N, 1) millimetres of opening: the depth at a contact, falling off within a few millimetres."""
+    bump = np.zeros((len(mesh), 1))
+    for place, depth in zip(points[contacts.anchor], contacts.depth, strict=True):
+        away = ((mesh - place) ** 2).sum(1, keepdims=True)
+        bump = np.maximum(bump, (depth + MARGIN) * np.exp(-away / (2 * _REACH**2)))
+    return bump
