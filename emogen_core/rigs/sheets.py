@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from emogen_core.correctives.pipeline import shape_weights
+from emogen_core.correctives.pipeline import face_weights
 from emogen_core.rendering.protocol import RenderSettings
 from emogen_core.rendering.setup import make_renderer
 
@@ -99,13 +99,13 @@ def _random(rig: Rig) -> Iterator[Tile]:
 
 def _sheet(renderer: Renderer, rig: Rig, tiles: Iterable[Tile], columns: int, settings: RenderSettings) -> Image.Image:
     listed = list(tiles)
-    weights = shape_weights(rig, np.stack([genes for _, _, genes in listed]))
     height = settings.height + _CAPTION
     rows = -(-len(listed) // columns)
     sheet = Image.new("RGB", (columns * settings.width, rows * height), "white")
     pen, font = ImageDraw.Draw(sheet), ImageFont.load_default(12)
-    for number, ((identity, caption, _), row) in enumerate(zip(listed, weights, strict=True)):
+    for number, (identity, caption, genes) in enumerate(listed):
+        weights = face_weights(rig, identity, genes[np.newaxis]).weights
         left, top = number % columns * settings.width, number // columns * height
-        sheet.paste(Image.fromarray(renderer.draw(identity, row[None], settings)[0]), (left, top))
+        sheet.paste(Image.fromarray(renderer.draw(identity, weights, settings)[0]), (left, top))
         pen.text((left + 4, top + settings.height + 2), caption, fill="black", font=font)
     return sheet

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from emogen_core.correctives.pipeline import shape_weights
 from emogen_core.errors import InvalidInputError
 from emogen_core.rendering.protocol import SURROUND_DARK, SURROUND_LIGHT, RenderSettings
 from emogen_core.search import Choice, Population, SearchParams, State, Strategy, place_order, strategy
@@ -27,6 +26,7 @@ if TYPE_CHECKING:
 
     from ..store.runs_tables import Trial
     from .config import StudyConfig
+    from .correction import Correction
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +84,7 @@ class Evolution:
 
     rig: Rig
     config: StudyConfig
+    correction: Correction
     key_of: Callable[[str, NDArray[np.float32], RenderSettings], str]
 
     def begin(self, trial: Trial, attempt: int) -> State:
@@ -140,7 +141,7 @@ class Evolution:
     def _faces(
         self, trial: Trial, generation: Generation, population: Population, places: tuple[int, ...]
     ) -> list[Face]:
-        weights = shape_weights(self.rig, population.genes)
+        weights = self.correction.weights(trial.identity, population.genes)
         settings = settings_of(self.config)
         return [
             Face(
@@ -162,7 +163,8 @@ class Evolution:
         if not genes:
             return []
         settings = settings_of(self.config)
-        return [Sketch(trial.identity, weights, settings) for weights in shape_weights(self.rig, np.stack(genes))]
+        corrected = self.correction.weights(trial.identity, genes)
+        return [Sketch(trial.identity, weights, settings) for weights in corrected]
 
 
 def pack_genes(genes: NDArray[np.float64]) -> bytes:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from ..store import runs, studies
 from .clock import digest
 from .config import StudyConfig
+from .correction import Correction
 from .errors import NotFoundError
 from .evolution import Evolution
 
@@ -27,9 +29,14 @@ class Journal:
     rig: Rig
     portraits: Portraits
 
+    @cached_property
+    def correction(self) -> Correction:
+        """The corrective pipeline of the rig."""
+        return Correction(self.rig)
+
     def evolution(self, config: StudyConfig) -> Evolution:
         """Return the search of a study."""
-        return Evolution(self.rig, config, self.portraits.key)
+        return Evolution(self.rig, config, self.correction, self.portraits.key)
 
     def find(self, tx: Tx, token: str, *, lock: bool = False) -> tuple[Participation, StudyConfig]:
         """Return the participation of a token and the study as it was when it began.

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from emogen_core.correctives.pipeline import shape_weights
+from emogen_core.correctives.pipeline import face_weights
 from emogen_core.search.params import search_params
 from emogen_core.simulation.participant import SimulatedParticipant, random_target, selection_count
 
@@ -212,7 +212,9 @@ class _Person:
             key = (self.number, len(self.minds))
             stream = np.random.Generator(np.random.PCG64(np.random.SeedSequence(self.simulation.seed, spawn_key=key)))
             target = random_target(search_params(rig), stream)
-            self.minds[trial["id"]] = SimulatedParticipant(shape_weights(rig, target[np.newaxis])[0])
+            # The browser, and so this participant, is not told the identity; on any head the target is nearly the same.
+            imagined = face_weights(rig, rig.identities[0], target[np.newaxis]).weights[0]
+            self.minds[trial["id"]] = SimulatedParticipant(imagined)
         return self.minds[trial["id"]]
 
 

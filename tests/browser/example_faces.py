@@ -3,7 +3,7 @@
 import numpy as np
 from PIL import Image
 
-from emogen_core.correctives.pipeline import shape_weights
+from emogen_core.correctives.pipeline import face_weights
 from emogen_core.rendering.protocol import RenderSettings
 from emogen_core.rendering.setup import make_renderer
 from server.assets import asset
@@ -17,7 +17,7 @@ OTHERS = 0.35
 def main():
     renderer, rig, *_ = make_renderer("pyrender")
     settings = RenderSettings(width=2 * SIZE[0], height=2 * SIZE[1])
-    pictures = renderer.draw("female", shape_weights(rig, _genes(rig)), settings)
+    pictures = renderer.draw("female", face_weights(rig, "female", _genes(rig)).weights, settings)
     renderer.close()
     folder = asset("static") / "example"
     folder.mkdir(exist_ok=True)

@@ -67,14 +67,14 @@ def test_csv_and_json_lines_say_the_same(get):
 def test_faces_carry_genes_and_weights_exactly(get, house):
     import numpy as np
 
-    from emogen_core.correctives.pipeline import shape_weights
+    from emogen_core.correctives.pipeline import face_weights
 
     rig = house.journal.rig
     for line in get(table="faces", format="jsonl").text.splitlines():
         row = json.loads(line)
         genes = np.array([[row[f"gene_{name}"] for name in rig.gene_names]])
         weights = [row[f"weight_{name}"] for name in rig.shape_names]
-        assert shape_weights(rig, genes)[0].tolist() == weights
+        assert face_weights(rig, row["identity"], genes).weights[0].tolist() == weights
 
 
 def test_header_and_dictionary_agree(get, recorded):
