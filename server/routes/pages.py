@@ -30,9 +30,8 @@ def entry(link: str, request: Request, house: Services) -> Response:
     if not found.open and resume is None:
         return _page(request, "error.html", found.config.language, 409, **_study(found), problem="closed", reload=None)
     query = f"?{request.url.query}" if request.url.query else ""
-    return _page(
-        request, "entry.html", found.config.language, **_study(found), action=f"/s/{link}{query}", resume=resume
-    )
+    values = {**_study(found), "action": f"/s/{link}{query}", "place": found.place, "resume": resume}
+    return _page(request, "entry.html", found.config.language, **values)
 
 
 @router.get("/p/{token}", response_model=None)

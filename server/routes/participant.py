@@ -21,6 +21,7 @@ router = APIRouter()
 async def join(link: str, request: Request, house: Services) -> Response:
     """Take a place in a study; with a token for simulations it is marked as simulated and may name its `seed`."""
     given = {name: values[-1] for name, values in fields(await request.body()).items()}
+    place = given.pop("place", None)
     secret = bearer(request)
     if secret is not None:
         await run(house.tokens.check, secret, "simulate")
@@ -28,6 +29,7 @@ async def join(link: str, request: Request, house: Services) -> Response:
         house.joining.join,
         link,
         {**request.query_params, **given},
+        place=place,
         simulated=secret is not None,
         seed=request.query_params.get("seed") if secret else None,
     )

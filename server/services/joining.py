@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -48,6 +49,8 @@ class Entry:
     study: str
     config: StudyConfig
     open: bool
+    place: str
+    """The token that a start from this page would have: pressing the button twice takes one place."""
 
 
 @dataclass(frozen=True)
@@ -64,31 +67,37 @@ class Joining:
         """
         with self.journal.database.read() as tx:
             _, study, version = _behind(tx, link_id)
-            return Entry(study.id, StudyConfig.model_validate(version.config), study.status in OPEN)
+            return Entry(study.id, StudyConfig.model_validate(version.config), study.status in OPEN, new_token())
 
     def join(
         self,
         link_id: str,
         recruiter: Mapping[str, str] | None = None,
         *,
+        place: str | None = None,
         simulated: bool = False,
         seed: str | None = None,
     ) -> Joined:
-        """Take a place.
+        """Take a place; with the `place` of an entry page, the same one however often it is asked for.
 
         Args:
             link_id: the link's last part.
             recruiter: parameters that came with it; those that the study names are kept.
+            place: the token that the entry page offered.
             simulated: marks the participation as simulated; `seed` then makes its trials repeatable.
             seed: decimal text.
 
         Raises:
             NotFoundError: no such link.
             ConflictError: the study takes nobody now.
+            InvalidError: the place or the seed is not one.
         """
-        token = new_token()
+        token = _checked_place(place) or new_token()
         with self.journal.database.write() as tx:
             link, study, version = _behind(tx, link_id, lock=True)
+            taken = runs.participation_by_token(tx, digest(token))
+            if taken is not None:
+                return Joined(token, taken.id)
             if study.status not in OPEN:
                 raise ConflictError("This study takes no participants at the moment. Thank you for your interest.")
             config = StudyConfig.model_validate(version.config)
@@ -178,6 +187,14 @@ def _seeds(participation: Participation) -> Callable[[int], str]:
         return str(int.from_bytes(words.astype("<u4").tobytes(), "little"))
 
     return seed
+
+
+def _checked_place(place: str | None) -> str | None:
+    if place is not None and not (len(place) == len(new_token()) and re.fullmatch(r"[\w-]+", place, re.ASCII)):
+        raise InvalidError(
+            "This start page is not complete. Load it again.", field="place", expected="32 letters, digits, - or _"
+        )
+    return place
 
 
 def _checked_seed(seed: str | None) -> str | None:

@@ -1,5 +1,7 @@
 """The main line over HTTP: join, consent, instructions, practice, trials, ratings, completion."""
 
+import re
+
 from tests.conftest import BOTH
 from tests.server.walker import Walker
 
@@ -36,3 +38,25 @@ def test_a_link_leads_back_to_the_running_participation(client, study):
     assert walker.address in back.text + back.headers.get("location", "")
     client.cookies.clear()
     assert walker.address not in client.get(f"/s/{study.links[0]}").text
+
+
+def test_pressing_start_twice_takes_one_place(client, study, house):
+    page = client.get(f"/s/{study.links[0]}").text
+    place = re.search(r'name="place" value="([^"]+)"', page)[1]
+    first, second = (
+        client.post(f"/s/{study.links[0]}", data={"place": place}, follow_redirects=False) for _ in range(2)
+    )
+    assert first.status_code == second.status_code == 303
+    assert first.headers["location"] == second.headers["location"] == f"/p/{place}"
+    assert house.studies.summary(study.id).arrived == 1
+    client.cookies.clear()
+    other = re.search(r'name="place" value="([^"]+)"', client.get(f"/s/{study.links[0]}").text)[1]
+    assert other != place
+
+
+def test_a_place_that_no_page_offered_is_refused(client, study, house):
+    for place in ("", "short", "x" * 33, "é" * 32, "../" * 10 + "xx"):
+        reply = client.post(f"/s/{study.links[0]}", data={"place": place}, headers={"accept": "application/json"})
+        assert reply.status_code == 422, place
+        assert reply.json()["error"]["field"] == "place"
+    assert house.studies.summary(study.id).arrived == 0
