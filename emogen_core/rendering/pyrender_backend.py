@@ -168,6 +168,7 @@ class _Pass(_PyrenderRenderer):
         self._mesh_textures: set[Any] = set()
 
     def aim(self, camera: Camera, style: Style, settings: RenderSettings) -> None:
+        """Take what the next faces share: view, colours of the head, size and background."""
         self._width, self._height = settings.width, settings.height
         self.viewport_width, self.viewport_height = (_SUPERSAMPLING * n for n in (settings.width, settings.height))
         span = 2 * (camera.height - camera.bottom)
@@ -179,6 +180,7 @@ class _Pass(_PyrenderRenderer):
         }
 
     def delete(self) -> None:
+        """Free the GL objects of this renderer; the shared display stays."""
         for texture in self._mesh_textures:
             texture.delete()
         for mesh in self._order:

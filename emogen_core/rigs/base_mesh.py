@@ -47,27 +47,24 @@ class BaseMesh:
 
 def load_base_mesh(source: Source) -> BaseMesh:
     """Parse ``base.obj`` and the mirror table."""
-    vertices: list[list[str]] = []
-    uv: list[list[str]] = []
+    rows: dict[str, list[list[str]]] = {"v": [], "vt": []}
     faces: dict[str, list[list[list[int]]]] = {}
     group = ""
     for line in source.read("mpfb2/3dobjs/base.obj").decode().splitlines():
         key, *fields = line.split() or [""]
-        if key == "v":
-            vertices.append(fields)
-        elif key == "vt":
-            uv.append(fields)
+        if key in rows:
+            rows[key].append(fields)
         elif key == "g":
             group = fields[0]
         elif key == "f":
             faces.setdefault(group, []).append([[int(i) - 1 for i in f.split("/")] for f in fields])
-    quads = {name: np.array(rows, np.intp) for name, rows in faces.items() if not name.startswith("joint")}
+    quads = {name: np.array(listed, np.intp) for name, listed in faces.items() if not name.startswith("joint")}
     return BaseMesh(
-        vertices=np.array(vertices, np.float64),
-        uv=np.array(uv, np.float64),
-        quads={name: rows[:, :, 0] for name, rows in quads.items()},
-        uv_quads={name: rows[:, :, 1] for name, rows in quads.items()},
-        mirror=_mirror(source, len(vertices)),
+        vertices=np.array(rows["v"], np.float64),
+        uv=np.array(rows["vt"], np.float64),
+        quads={name: corners[:, :, 0] for name, corners in quads.items()},
+        uv_quads={name: corners[:, :, 1] for name, corners in quads.items()},
+        mirror=_mirror(source, len(rows["v"])),
     )
 
 

@@ -14,23 +14,7 @@ _Cell = tuple[int, int]
 
 def grid_of(quads: NDArray[np.intp]) -> NDArray[np.intp]:
     """Return the vertices of a rectangular quad strip as a (rows, columns) array, rows <= columns."""
-    place: dict[int, _Cell] = dict(zip(map(int, quads[0]), ((0, 0), (1, 0), (1, 1), (0, 1)), strict=True))
-    across = {pair: other for quad in quads for pair, other in _opposites([int(v) for v in quad])}
-    todo = [tuple(map(int, quads[0]))]
-    seen = {frozenset(todo[0])}
-    by_side = {pair: tuple(map(int, quad)) for quad in quads for pair in _sides([int(v) for v in quad])}
-    while todo:
-        quad = todo.pop()
-        for a, b in _sides(list(quad)):
-            neighbour = by_side.get((b, a))
-            if neighbour is None or frozenset(neighbour) in seen:
-                continue
-            far_a, far_b = across[b, a][::-1]
-            near_a, near_b = across[a, b]
-            place[far_a] = _beyond(place[a], place[near_a])
-            place[far_b] = _beyond(place[b], place[near_b])
-            seen.add(frozenset(neighbour))
-            todo.append(neighbour)
+    place = _unfold([[int(v) for v in quad] for quad in quads])
     cells = np.array(list(place.values()))
     cells -= cells.min(0)
     grid = np.full(cells.max(0) + 1, -1)
@@ -42,6 +26,24 @@ def grid_triangles(grid: NDArray[np.intp]) -> NDArray[np.intp]:
     """Return the (T, 3) triangles of a (rows, columns) grid of vertices, row then column counter-clockwise."""
     a, b, c, d = (part.ravel() for part in (grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]))
     return np.stack([np.stack([a, b, c], 1), np.stack([a, c, d], 1)], 1).reshape(-1, 3)
+
+
+def _unfold(quads: list[list[int]]) -> dict[int, _Cell]:
+    """Return the cell of every vertex, walking from quad to quad across shared sides."""
+    place = dict(zip(quads[0], ((0, 0), (1, 0), (1, 1), (0, 1)), strict=True))
+    across = {pair: other for quad in quads for pair, other in _opposites(quad)}
+    by_side = {pair: quad for quad in quads for pair in _sides(quad)}
+    todo, seen = [quads[0]], {frozenset(quads[0])}
+    while todo:
+        for a, b in _sides(todo.pop()):
+            neighbour = by_side.get((b, a), [])
+            if not neighbour or frozenset(neighbour) in seen:
+                continue
+            for far, near, here in zip(across[b, a][::-1], across[a, b], (a, b), strict=True):
+                place[far] = _beyond(place[here], place[near])
+            seen.add(frozenset(neighbour))
+            todo.append(neighbour)
+    return place
 
 
 def _sides(quad: list[int]) -> list[tuple[int, int]]:

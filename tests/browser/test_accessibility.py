@@ -18,7 +18,7 @@ RULES = {
 }
 
 
-def check(page):
+def must_be_accessible(page):
     found = Axe().run(page, options=RULES).response["violations"]
     told = [(rule["id"], [node["html"][:200] for node in rule["nodes"]]) for rule in found]
     assert told == []
@@ -30,64 +30,64 @@ def check(page):
 def test_paper_pages(stage, player):
     page = player.page
     page.goto(stage.link("pictures"))
-    check(page)
+    must_be_accessible(page)
     player.arrive(stage.link("pictures"))
-    check(page)
+    must_be_accessible(page)
     page.get_by_role("button", name="I agree, start").click()
     assert page.title().startswith("Error: ")
     assert page.evaluate("document.activeElement.id") == "summary"
-    check(page)
+    must_be_accessible(page)
     page.get_by_role("link", name="Say whether you have read this page").click()
     assert page.evaluate("document.activeElement.id") == "read"
     player.agree()
-    check(page)
+    must_be_accessible(page)
     page.get_by_role("link", name="Stop taking part").click()
-    check(page)
+    must_be_accessible(page)
     page.get_by_role("button", name="Stop and keep").click()
     page.get_by_role("heading", name="You have stopped taking part").wait_for()
-    check(page)
+    must_be_accessible(page)
 
 
 def test_errors(stage, player):
     for address in (f"{stage.address}/s/nothing", stage.link("closed"), f"{stage.address}/p/nobody"):
         player.page.goto(address)
-        check(player.page)
+        must_be_accessible(player.page)
 
 
 @pytest.mark.parametrize("study", ["small", "dark"])
 def test_evolve_page_in_every_state(stage, player, study):
     page = player.begin(stage.link(study)).page
-    check(page)
+    must_be_accessible(page)
     player.choose(1, 3, 5, best=5)
-    check(page)
+    must_be_accessible(page)
     player.tile(2).hover()
     page.keyboard.press("ArrowRight")
-    check(page)
+    must_be_accessible(page)
     for opener in (".wide-link >> nth=0", ".wide-link >> nth=1"):
         page.locator(opener).click()
-        check(page)
+        must_be_accessible(page)
         page.keyboard.press("Escape")
     page.locator("#select-3").focus()
     page.keyboard.press("z")
     page.wait_for_selector("#enlarged[open]")
-    check(page)
+    must_be_accessible(page)
     page.keyboard.press("Escape")
     player.choose(1, 3, 5).next()
-    check(page)
+    must_be_accessible(page)
 
 
 def test_panels_on_a_phone(stage, phone):
     page = phone.begin(stage.link("small")).page
-    check(page)
+    must_be_accessible(page)
     page.locator(".menu summary").tap()
-    check(page)
+    must_be_accessible(page)
     page.locator(".question").tap()
     phone.choose(1)
     page.context.set_offline(True)
     phone.next()
     page.wait_for_selector("#panel.offline:not([hidden])")
     page.context.set_offline(False)
-    check(page)
+    must_be_accessible(page)
 
 
 def test_rating_and_completion(stage, player):
@@ -97,16 +97,16 @@ def test_rating_and_completion(stage, player):
         player.choose(2).next()
     page.wait_for_selector(".rating")
     page.wait_for_load_state()
-    check(page)
+    must_be_accessible(page)
     page.get_by_role("button", name="Next").click()
     assert page.locator(".summary a").all_inner_texts() == [
         "Say how strong the anger is",
         "Say how close it is to the anger you had in mind",
     ]
-    check(page)
+    must_be_accessible(page)
     player.rate(3, 4)
     page.wait_for_selector(".code")
-    check(page)
+    must_be_accessible(page)
     page.emulate_media(media="print")
     assert page.locator(".code.main code").is_visible()
     assert page.locator(".copy").first.is_hidden()

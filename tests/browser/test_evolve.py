@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from .stage import participation_of
+
 pytestmark = pytest.mark.browser
 
 SIZES = [((1280, 800), (234, 280)), ((1366, 625), (185, 222)), ((1024, 768), (182, 219)), ((1920, 1080), (330, 396))]
@@ -162,14 +164,16 @@ def test_start_again_asks_first(evolving):
     assert evolving.state()["trial"]["attempt"] == 1
 
 
-@pytest.mark.parametrize(("button", "heading"), [
-    ("Stop and keep", "You have stopped taking part"),
-    ("Stop and erase", "Your answers have been erased"),
+@pytest.mark.parametrize(("button", "heading", "kept"), [
+    ("Stop and keep", "You have stopped taking part", True),
+    ("Stop and erase", "Your answers have been erased", False),
 ])  # fmt: skip
-def test_stop_keeps_or_erases(evolving, button, heading):
+def test_stop_keeps_or_erases(stage, evolving, button, heading, kept):
+    someone = participation_of(stage, evolving.page)
     evolving.page.locator(".wide-link").nth(1).click()
     evolving.page.get_by_role("button", name=button).click()
     evolving.page.get_by_role("heading", name=heading).wait_for()
+    assert stage.one("SELECT count(*) > 0 FROM trials WHERE participation_id = ?", someone) == kept
 
 
 def test_holding_a_finger_enlarges_and_does_not_select(stage, phone):

@@ -8,7 +8,7 @@ from tests.server.dump import dump
 from tests.server.walker import Walker
 
 
-def problem(reply, status, code):
+def check_problem(reply, status, code):
     assert reply.status_code == status, reply.text
     assert reply.headers["content-type"] == "application/json"
     error = reply.json()["error"]
@@ -30,7 +30,7 @@ def test_unknown_face(walker, house):
     before = dump(house.database)
     body = walker.body(walker.begun)
     body["selected"].append(str(uuid.uuid4()))
-    error = problem(walker.post(body), 422, "invalid")
+    error = check_problem(walker.post(body), 422, "invalid")
     assert (error["field"], error["got"]) == ("selected", body["selected"][-1])
     assert dump(house.database) == before
 
@@ -40,7 +40,7 @@ def test_a_face_of_the_generation_before_is_unknown(walker, house):
     walker.post(old)
     before = dump(house.database)
     now = walker.body(walker.state())
-    problem(walker.post({**now, "selected": old["selected"], "elite": old["elite"]}), 422, "invalid")
+    check_problem(walker.post({**now, "selected": old["selected"], "elite": old["elite"]}), 422, "invalid")
     assert dump(house.database) == before
 
 
@@ -52,17 +52,17 @@ def test_too_many_and_too_few(client, house):
     state = walker.step(walker.start())
     before = dump(house.database)
     for count in (1, 4):
-        error = problem(walker.post(walker.body(state, count)), 422, "invalid")
+        error = check_problem(walker.post(walker.body(state, count)), 422, "invalid")
         assert (error["expected"], error["got"]) == ("2 to 3 faces", str(count))
     empty = {**walker.body(state), "selected": []}
-    problem(walker.post(empty), 422, "invalid")
+    check_problem(walker.post(empty), 422, "invalid")
     assert dump(house.database) == before
 
 
 def test_the_same_face_twice(walker, house):
     before = dump(house.database)
     body = walker.body(walker.begun, 1)
-    problem(walker.post({**body, "selected": body["selected"] * 2}), 422, "invalid")
+    check_problem(walker.post({**body, "selected": body["selected"] * 2}), 422, "invalid")
     assert dump(house.database) == before
 
 
@@ -70,7 +70,7 @@ def test_elite_not_among_the_selected(walker, house):
     before = dump(house.database)
     body = walker.body(walker.begun)
     body["elite"] = walker.begun["trial"]["faces"][5]["id"]
-    assert problem(walker.post(body), 422, "invalid")["field"] == "elite"
+    assert check_problem(walker.post(body), 422, "invalid")["field"] == "elite"
     assert dump(house.database) == before
 
 
@@ -79,7 +79,7 @@ def test_stale_generation(walker, house):
     state = walker.post(first).json()
     before = dump(house.database)
     reply = walker.post({**first, "id": str(uuid.uuid4())})
-    error = problem(reply, 409, "stale_step")
+    error = check_problem(reply, 409, "stale_step")
     assert (error["field"], error["expected"], error["got"]) == ("generation", "1", "0")
     assert reply.json()["state"] == state
     assert dump(house.database) == before
@@ -92,7 +92,7 @@ def test_stale_generation(walker, house):
 def test_an_answer_to_another_step(walker, house, body):
     before = dump(house.database)
     reply = walker.post({"id": str(uuid.uuid4()), **body})
-    assert problem(reply, 409, "stale_step")["field"] == "kind"
+    assert check_problem(reply, 409, "stale_step")["field"] == "kind"
     assert reply.json()["state"]["step"] == "evolve"
     assert dump(house.database) == before
 
@@ -103,7 +103,7 @@ def test_second_answer_with_other_content(walker, house):
     before = dump(house.database)
     assert walker.post(first).json() == stored
     other = {**first, "elite": first["selected"][1]}
-    assert problem(walker.post(other), 409, "answer_conflict")["field"] == "id"
+    assert check_problem(walker.post(other), 409, "answer_conflict")["field"] == "id"
     assert dump(house.database) == before
 
 
@@ -115,7 +115,7 @@ def test_ratings_that_do_not_fit(walker, house):
     trial = state["rating"]["trial"]
     for values in ({}, {"intensity": 4}, {"intensity": 4, "satisfaction": 4, "beauty": 4}, {"intensity": 8}):
         body = {"id": str(uuid.uuid4()), "kind": "rating", "trial": trial, "values": values}
-        problem(walker.post(body), 422, "invalid")
+        check_problem(walker.post(body), 422, "invalid")
     assert dump(house.database) == before
 
 
@@ -139,28 +139,30 @@ def test_bodies_that_are_no_answers(walker, house, body):
 def test_oversized_body(walker, house, settings):
     before = dump(house.database)
     body = b'{"id": "' + b"x" * settings.body_limit_bytes + b'"}'
-    problem(walker.client.post(f"{walker.address}/answers", content=body), 413, "too_large")
+    check_problem(walker.client.post(f"{walker.address}/answers", content=body), 413, "too_large")
 
     def parts():
         for _ in range(settings.body_limit_bytes // 4096 + 1):
             yield b" " * 4096
 
-    problem(walker.client.post(f"{walker.address}/answers", content=parts()), 413, "too_large")
+    check_problem(walker.client.post(f"{walker.address}/answers", content=parts()), 413, "too_large")
     assert dump(house.database) == before
 
 
 def test_unknown_study_and_bad_token(client, house, study):
     before = dump(house.database)
     json = {"accept": "application/json"}
-    problem(client.post("/s/nowhere", headers=json), 404, "not_found")
-    problem(client.get("/s/nowhere", headers=json), 404, "not_found")
-    problem(client.get("/p/guess/state"), 404, "not_found")
-    problem(client.post("/p/guess/answers", json={"id": str(uuid.uuid4()), "kind": "instructions"}), 404, "not_found")
-    problem(client.post("/p/guess/events", json={"events": []}), 404, "not_found")
-    problem(client.post("/p/guess/stop", json={}), 404, "not_found")
-    problem(client.get(f"/portraits/{'0' * 64}.png"), 404, "not_found")
-    problem(client.get("/portraits/..%2f..%2fetc.png"), 404, "not_found")
-    problem(client.get("/portraits/x.png"), 422, "invalid")
+    check_problem(client.post("/s/nowhere", headers=json), 404, "not_found")
+    check_problem(client.get("/s/nowhere", headers=json), 404, "not_found")
+    check_problem(client.get("/p/guess/state"), 404, "not_found")
+    check_problem(
+        client.post("/p/guess/answers", json={"id": str(uuid.uuid4()), "kind": "instructions"}), 404, "not_found"
+    )
+    check_problem(client.post("/p/guess/events", json={"events": []}), 404, "not_found")
+    check_problem(client.post("/p/guess/stop", json={}), 404, "not_found")
+    check_problem(client.get(f"/portraits/{'0' * 64}.png"), 404, "not_found")
+    check_problem(client.get("/portraits/..%2f..%2fetc.png"), 404, "not_found")
+    check_problem(client.get("/portraits/x.png"), 422, "invalid")
     assert dump(house.database) == before
 
 
@@ -170,7 +172,7 @@ def test_a_closed_study_takes_nobody(client, house):
     study = house.studies.create(small_study(), status="paused")
     before = dump(house.database)
     reply = client.post(f"/s/{study.links[0]}", headers={"accept": "application/json"})
-    problem(reply, 409, "conflict")
+    check_problem(reply, 409, "conflict")
     assert dump(house.database) == before
 
 
@@ -192,22 +194,22 @@ def test_events_of_what_was_not_seen(walker, house):
     }  # fmt: skip
     for wrong in ({"generation": 7}, {"trial": "other"}, {"face": "other"}, {"type": "sneeze"}, {"at_ms": -1}):
         bundle = {"events": [good, {**good, "id": str(uuid.uuid4()), **wrong}]}
-        problem(walker.client.post(f"{walker.address}/events", json=bundle), 422, "invalid")
+        check_problem(walker.client.post(f"{walker.address}/events", json=bundle), 422, "invalid")
     assert dump(house.database) == before
 
 
 def test_nul_is_refused_everywhere(walker, house):
     before = dump(house.database)
     client = walker.client
-    problem(client.get("/s/%00"), 400, "bad_request")
+    check_problem(client.get("/s/%00"), 400, "bad_request")
     assert client.post("/s/nowhere", content=b"PROLIFIC_PID=%00").status_code == 422
     body = walker.body(walker.begun)
     body["client"]["input"] = "\0"
-    problem(walker.post(body), 422, "invalid")
+    check_problem(walker.post(body), 422, "invalid")
     assert dump(house.database) == before
 
 
 def test_unknown_addresses_and_methods(client):
-    problem(client.get("/nowhere"), 404, "not_found")
-    problem(client.get("/static/nowhere.css"), 404, "not_found")
-    problem(client.delete("/health/live"), 405, "method_not_allowed")
+    check_problem(client.get("/nowhere"), 404, "not_found")
+    check_problem(client.get("/static/nowhere.css"), 404, "not_found")
+    check_problem(client.delete("/health/live"), 405, "method_not_allowed")

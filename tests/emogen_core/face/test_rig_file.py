@@ -26,7 +26,7 @@ def full_rig():
     )
 
 
-def same(a, b):
+def check_same(a, b):
     assert a.hash == b.hash
     assert (a.genes, a.core_shapes, a.combinations, a.collision_shapes) == (
         b.genes, b.core_shapes, b.combinations, b.collision_shapes,
@@ -44,7 +44,7 @@ def same(a, b):
 
 def test_a_saved_rig_is_loaded(tmp_path):
     saved = save_rig(full_rig(), tmp_path / "a.rig")
-    same(saved, load_rig(tmp_path / "a.rig"))
+    check_same(saved, load_rig(tmp_path / "a.rig"))
 
 
 def test_saving_rounds_by_at_most_a_step_and_only_once(tmp_path):
