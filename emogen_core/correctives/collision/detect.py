@@ -102,15 +102,15 @@ def _contacts(
 ) -> tuple[Contacts, float]:
     """Return the pairs of one type, its negative ray given, and the greatest depth of an anchor within.
 
-    Only anchors whose negative ray can give a pair are sampled along the other axis.
+    Only anchors whose negative ray can give a pair are sampled along the other rays.
     """
     axis, sign = negative
     mine = np.flatnonzero(own & target.ahead(anchors, axis, sign))
-    hits = target.cross(anchors[mine], axis)
+    hits = target.cross(anchors[mine], axis, sign)
     ray = hits.along(sign)
     leaving = ray.leaves(ray.first)
     suspects = np.flatnonzero(leaving)
-    within = suspects[_within(target, anchors[mine[suspects]], hits, suspects)]
+    within = suspects[_within(target, anchors[mine[suspects]])]
     worst = float(np.abs(hits.distance[ray.first[within]]).max(initial=0))
     if worst <= tolerance:
         return _pairs(hits, mine, np.zeros(0, np.intp)), worst
@@ -119,16 +119,19 @@ def _contacts(
     return _pairs(hits, mine, pairs[np.abs(hits.distance[pairs]) > tolerance]), worst
 
 
-def _within(target: Target, points: NDArray[np.float64], hits: Hits, suspects: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Return for every suspect whether it is within; ``hits`` are those along one of the axes."""
-    other = target.cross(points, UP if hits.axis == OUT else OUT)
-    sides, parity = [], np.ones(len(suspects), bool)
-    for found, rows in ((hits, suspects), (other, np.arange(len(suspects)))):
-        ahead, back = found.along(1), found.along(-1)
-        leaves = ahead.leaves(ahead.first)[rows]
-        sides.append(leaves & back.leaves(back.first)[rows])
-        parity &= leaves & (ahead.count[rows] % 2 == 1)
-    return sides[0] | sides[1] | parity
+def _within(target: Target, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return (n,) whether (n, 3) points are within the lower lip."""
+    within = np.zeros(len(points), bool)
+    if not len(points):
+        return within
+    parity = np.ones(len(points), bool)
+    for axis in (UP, OUT):
+        hits = target.cross(points, axis)
+        ahead, back = hits.along(1), hits.along(-1)
+        leaves = ahead.leaves(ahead.first)
+        within |= leaves & back.leaves(back.first)
+        parity &= leaves & (ahead.count % 2 == 1)
+    return within | parity
 
 
 def _pairs(hits: Hits, mine: NDArray[np.intp], chosen: NDArray[np.intp]) -> Contacts:

@@ -32,7 +32,7 @@ def dense_depth(rig: Rig, identity: str, weights: NDArray[np.float32]) -> NDArra
     Raises:
         InvalidInputError: bad weights, unknown identity, or a rig without collision correctives.
     """
-    alpha = checked_weights(weights, len(rig.shape_names)).astype(np.float64)
+    alpha = checked_weights(weights, len(rig.shape_names))
     model = collision_model(rig, identity, dense=True)
     depths = np.zeros((len(alpha), 2))
     for row, one in enumerate(alpha):

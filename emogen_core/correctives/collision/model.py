@@ -36,8 +36,8 @@ class CollisionModel:
         kind: (A,) `LIPS` or `TEETH`, the type as which an anchor collides.
         patch: (R, 3) neutral patch vertices, millimetres.
         anchors: (A, 3) neutral anchors, millimetres.
-        patch_offsets: (K, R, 3) of every shape.
-        anchor_offsets: (K, A, 3) of every shape; its last eight rows are eq. 2.
+        patch_offsets: (K, R, 3) float32 of every shape.
+        anchor_offsets: (K, A, 3) float32 of every shape; its last eight rows are eq. 2.
         mirror: (R,) mirror image of every patch vertex, and ``anchor_mirror`` (A,) of every anchor; empty for a head
             that is not symmetric.
     """
@@ -46,8 +46,8 @@ class CollisionModel:
     kind: NDArray[np.intp]
     patch: NDArray[np.float64]
     anchors: NDArray[np.float64]
-    patch_offsets: NDArray[np.float64]
-    anchor_offsets: NDArray[np.float64]
+    patch_offsets: NDArray[np.float32]
+    anchor_offsets: NDArray[np.float32]
     mirror: NDArray[np.intp]
     anchor_mirror: NDArray[np.intp]
 
@@ -63,17 +63,17 @@ class CollisionModel:
         offsets = self.anchor_offsets[:, left]
         return replace(self, kind=self.kind[left], anchors=self.anchors[left], anchor_offsets=offsets)
 
-    @property
+    @cached_property
     def unit_patch(self) -> NDArray[np.float64]:
         """(8, R, 3) offsets of the collision correctives at the patch's vertices."""
-        return self.patch_offsets[-2 * ZONES :]
+        return self.patch_offsets[-2 * ZONES :].astype(np.float64)
 
-    @property
+    @cached_property
     def unit_anchors(self) -> NDArray[np.float64]:
         """(8, A, 3) offsets of the collision correctives at the anchors (eq. 2)."""
-        return self.anchor_offsets[-2 * ZONES :]
+        return self.anchor_offsets[-2 * ZONES :].astype(np.float64)
 
-    def evaluate(self, weights: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def evaluate(self, weights: NDArray[np.float32]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return patch (B, R, 3) and anchors (B, A, 3) of faces given by (B, K) weights."""
         return _worn(self.patch, self.patch_offsets, weights), _worn(self.anchors, self.anchor_offsets, weights)
 
@@ -96,15 +96,15 @@ def collision_model(rig: Rig, identity: str, *, dense: bool = False) -> Collisio
         kind=anchors.kind,
         patch=neutral[patch],
         anchors=places,
-        patch_offsets=offsets[:, patch].astype(np.float64),
-        anchor_offsets=anchors.sample(offsets),
+        patch_offsets=offsets[:, patch],
+        anchor_offsets=anchors.sample(offsets).astype(np.float32),
         mirror=_twins(neutral[patch]),
         anchor_mirror=_twins(places),
     )
 
 
 def _worn(
-    neutral: NDArray[np.float64], offsets: NDArray[np.float64], weights: NDArray[np.float64]
+    neutral: NDArray[np.float64], offsets: NDArray[np.float32], weights: NDArray[np.float32]
 ) -> NDArray[np.float64]:
     # Faces use few of the shapes, and reading the others' offsets costs more than the product.
     used = weights.any(0)

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 
 X, UP, OUT = 0, 1, 2
 NONE = -1
-_TURN = [1, 2, 0]
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,7 +27,6 @@ class Hits:
 
     Attributes:
         anchors: A.
-        axis: `UP` or `OUT`.
         anchor: (H,) which anchor.
         face: (H,) which triangle of the patch.
         distance: (H,) signed, along the positive axis, millimetres.
@@ -37,7 +35,6 @@ class Hits:
     """
 
     anchors: int
-    axis: int
     anchor: NDArray[np.intp]
     face: NDArray[np.intp]
     distance: NDArray[np.float64]
@@ -88,42 +85,50 @@ class Target:
 
     def __init__(self, patch: NDArray[np.float64], triangles: NDArray[np.intp]) -> None:
         """Take (R, 3) vertices in millimetres and (F, 3) triangles, counter-clockwise seen from outside."""
-        self._corners = patch[triangles]
-        a, b, c = self._corners[:, 0], self._corners[:, 1], self._corners[:, 2]
-        self._low, self._high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
-        self.low, self.high = self._low.min(0), self._high.max(0)
+        # One contiguous array a coordinate and a corner: [axis][corner] -> (F,).
+        self._corner = [[patch[triangles[:, k], axis] for k in range(3)] for axis in range(3)]
+        self._low = [np.minimum(np.minimum(a, b), c) for a, b, c in self._corner]
+        self._high = [np.maximum(np.maximum(a, b), c) for a, b, c in self._corner]
 
     def ahead(self, anchors: NDArray[np.float64], axis: int, sign: int) -> NDArray[np.bool_]:
         """Return (A,) whether the ray from an anchor along an axis can meet the patch's bounding box."""
         across = UP + OUT - axis
-        place = anchors[:, axis]
-        before: NDArray[np.bool_] = place < self.high[axis] if sign > 0 else place > self.low[axis]
-        before &= (anchors[:, across] >= self.low[across]) & (anchors[:, across] <= self.high[across])
+        place, aside = anchors[:, axis], anchors[:, across]
+        before: NDArray[np.bool_] = place < self._high[axis].max() if sign > 0 else place > self._low[axis].min()
+        before &= (aside >= self._low[across].min()) & (aside <= self._high[across].max())
         return before
 
-    def cross(self, anchors: NDArray[np.float64], axis: int) -> Hits:
-        """Return where the lines through (A, 3) anchors along `UP` or `OUT` cross the patch."""
-        anchor, face = self._pairs(anchors, UP + OUT - axis)
+    def cross(self, anchors: NDArray[np.float64], axis: int, sign: int = 0) -> Hits:
+        """Return where the lines through (A, 3) anchors along `UP` or `OUT` cross the patch.
+
+        With a ``sign``, only the crossings along the positive (1) or negative (-1) rays are certain to be there.
+        """
+        anchor, face = self._pairs(anchors, axis, sign)
         # The plane's two axes in cyclic order, so that a positive area means an outer side along the positive axis.
         u, v = (axis + 1) % 3, (axis + 2) % 3
-        point, triangle = anchors[anchor], self._corners[face]
-        du = triangle[:, :, u] - point[:, None, u]
-        dv = triangle[:, :, v] - point[:, None, v]
-        parts = (du * dv[:, _TURN] - dv * du[:, _TURN])[:, _TURN]
-        area = parts[:, 0] + parts[:, 1] + parts[:, 2]
-        inside = np.flatnonzero(((parts * area[:, None]).min(1) >= 0) & (area != 0))
-        shares = parts[inside] / area[inside, None]
-        distance = (shares * triangle[inside, :, axis]).sum(1) - point[inside, axis]
-        return Hits(len(anchors), axis, anchor[inside], face[inside], distance, area[inside] > 0, shares)
+        at_u, at_v = anchors[anchor, u], anchors[anchor, v]
+        du = [corner[face] - at_u for corner in self._corner[u]]
+        dv = [corner[face] - at_v for corner in self._corner[v]]
+        parts = np.stack([du[i] * dv[j] - dv[i] * du[j] for i, j in ((1, 2), (2, 0), (0, 1))])
+        area = parts[0] + parts[1] + parts[2]
+        inside = np.flatnonzero(((parts * area).min(0) >= 0) & (area != 0))
+        anchor, face, area = anchor[inside], face[inside], area[inside]
+        shares = parts[:, inside] / area
+        height = sum(share * corner[face] for share, corner in zip(shares, self._corner[axis], strict=True))
+        return Hits(len(anchors), anchor, face, height - anchors[anchor, axis], area > 0, shares.T)
 
-    def _pairs(self, anchors: NDArray[np.float64], across: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return (anchor, face) pairs whose shadows may meet: a sweep along x, then bounds across."""
+    def _pairs(self, anchors: NDArray[np.float64], axis: int, sign: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Return (anchor, face) pairs whose shadows may meet: a sweep along x, then bounds across and ahead."""
+        across = UP + OUT - axis
         order = np.argsort(anchors[:, X], kind="stable")
-        ranked = anchors[order, X]
-        first = np.searchsorted(ranked, self._low[:, X], "left")
-        count = np.searchsorted(ranked, self._high[:, X], "right") - first
+        ranked = anchors[order]
+        first = np.searchsorted(ranked[:, X], self._low[X], "left")
+        count = np.searchsorted(ranked[:, X], self._high[X], "right") - first
         face = np.repeat(np.arange(len(count)), count)
         rank = np.arange(len(face)) + np.repeat(first - np.cumsum(count) + count, count)
-        place = anchors[order, across][rank]
-        near = (np.repeat(self._low[:, across], count) <= place) & (place <= np.repeat(self._high[:, across], count))
+        aside = ranked[:, across][rank]
+        near = (self._low[across][face] <= aside) & (aside <= self._high[across][face])
+        if sign:
+            place = ranked[:, axis][rank]
+            near &= place < self._high[axis][face] if sign > 0 else place > self._low[axis][face]
         return order[rank[near]], face[near]

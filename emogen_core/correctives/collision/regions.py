@@ -3,10 +3,9 @@
 A rig names the vertices of both lips and of the front teeth. The target is the surface of the lower lip, its wet side
 included. Anchors are barycentric points on the faces of the upper lip, of the upper front teeth, and, which is
 ours, of the lower front teeth: on the bundled head the upper teeth hardly ever enter the lower lip, but the
-lower ones do. Solved for are one anchor at every vertex, because that is where two facetted surfaces enter each
-other deepest, and well spread face centres, by farthest-point sampling (Gonzalez 1985,
-doi:10.1016/0304-3975(85)90224-5). All are found on the left half and mirrored, so that a symmetric face asks for a
-symmetric correction. The judge takes ten points on every face.
+lower ones do. The anchors that are solved for sit at every vertex, because that is where two facetted surfaces enter
+each other deepest, and inside every face; they are found on the left half and mirrored, so that a symmetric face
+asks for a symmetric correction. The judge takes a fine grid on every face.
 """
 
 from __future__ import annotations
@@ -23,22 +22,21 @@ if TYPE_CHECKING:
 
 LIPS, TEETH = 0, 1
 LOWER_LIP = "lip_lower"
-# Region -> its part of the triangles, the way its anchors face (up, outward), and how many face centres are
-# solved for besides the vertices.
+# At a corner, but not quite, lest a ray run along a seam; half-way from the centre to it; the centre.
+_AT_CORNERS = 0.03 + 0.91 * np.eye(3)
+_HALF_WAY = 0.2 + 0.4 * np.eye(3)
+_CENTRE = np.full((1, 3), 1 / 3)
+# Region -> its parts of the triangles, the way its anchors face (up, outward), the least cosine to it, and how far
+# from the middle it reaches (millimetres): teeth up to the canines.
 ANCHORED = {
-    "lip_upper": (("skin", "mouth"), (-1, 0), 700),
-    "teeth_upper": (("teeth_upper",), (0, 1), 0),
-    "teeth_lower": (("teeth_lower",), (0, 1), 560),
+    "lip_upper": (("skin", "mouth"), (-1, 0), 0.0, np.inf),
+    "teeth_upper": (("teeth_upper",), (0, 1), 0.3, 16.5),
+    "teeth_lower": (("teeth_lower",), (0, 1), 0.3, 16.5),
 }
-# Least cosine between an anchor face's normal and the way it faces: lips take all, teeth only their fronts.
-_FACING = {"lip_upper": 0.0, "teeth_upper": 0.3, "teeth_lower": 0.3}
 _CREST_REACH = 3.0
 _CREST = -0.1
+_GRID = 5
 _SEAM = 0.01
-# Barycentric points of a face: its centre, three at the corners (not quite, lest a ray run along a seam), three
-# towards the edges, three half-way to the corners.
-_AT_CORNERS = 0.03 + 0.91 * np.eye(3)
-_DENSE = np.concatenate([np.full((1, 3), 1 / 3), _AT_CORNERS, 0.45 - 0.35 * np.eye(3), 0.2 + 0.4 * np.eye(3)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,45 +70,33 @@ def target_faces(rig: Rig) -> NDArray[np.intp]:
 
 
 def solver_anchors(rig: Rig) -> Anchors:
-    """Return the mirrored anchors that are solved for: one at every vertex, and well spread face centres."""
-    faces = {name: facing_faces(rig, name) for name in ANCHORED}
-    chosen = {name: rows if name == "lip_upper" else _crests(rig, rows) for name, rows in faces.items()}
+    """Return the anchors that are solved for, mirrored: at every vertex and inside every face."""
     parts = []
-    for name, rows in chosen.items():
-        parts += [_points(name, *_at_vertices(rig, rows)), _points(name, *_spread(rig, rows, ANCHORED[name][2]))]
-    return _joined([part for part in parts if len(part.kind)])
+    for name in ANCHORED:
+        faces = facing_faces(rig, name)
+        if name != "lip_upper":
+            faces = _crests(rig, faces)
+        # Upper teeth hardly ever meet the lower lip.
+        inside = _CENTRE if name == "teeth_upper" else _HALF_WAY
+        parts += [(name, _at_vertices(faces)), (name, _inside(faces, inside))]
+    return _joined([_points(name, *_mirrored(rig, *part)) for name, part in parts])
 
 
 def judge_anchors(rig: Rig) -> Anchors:
-    """Return ten anchors on every face of the regions."""
-    faces = {name: facing_faces(rig, name) for name in ANCHORED}
-    every = len(_DENSE)
-    return _joined(
-        [_points(name, np.repeat(f, every, axis=0), np.tile(_DENSE, (len(f), 1))) for name, f in faces.items()]
-    )
+    """Return the judge's 28 anchors on every face of the regions: a grid, and the corners."""
+    shares = np.concatenate([_grid(_GRID), _AT_CORNERS])
+    return _joined([_points(name, *_inside(facing_faces(rig, name), shares)) for name in ANCHORED])
 
 
 def facing_faces(rig: Rig, region: str) -> NDArray[np.intp]:
     """Return the (n, 3) faces of an anchor region that can meet the lower lip, by the first identity's neutral."""
-    parts, (up, out), _ = ANCHORED[region]
+    parts, (up, out), least, reach = ANCHORED[region]
     faces = _faces(rig, region, parts)
     a, b, c = (_neutral(rig)[faces[:, i]] for i in range(3))
     normal = np.cross(b - a, c - a)
     cosine = (normal @ (0, up, out)) / np.maximum(np.linalg.norm(normal, axis=1), 1e-12)
-    facing: NDArray[np.intp] = faces[cosine > _FACING[region]]
+    facing: NDArray[np.intp] = faces[(cosine > least) & (np.abs(a + b + c)[:, 0] / 3 < reach)]
     return facing
-
-
-def farthest_points(points: NDArray[np.float64], count: int) -> NDArray[np.intp]:
-    """Return the indices of ``count`` of (n, 3) points: the most central, then the farthest from those before."""
-    if not count:
-        return np.zeros(0, np.intp)
-    chosen = [int(np.argmin(((points - points.mean(0)) ** 2).sum(1)))]
-    gap = ((points - points[chosen[0]]) ** 2).sum(1)
-    while len(chosen) < min(count, len(points)):
-        chosen.append(int(gap.argmax()))
-        gap = np.minimum(gap, ((points - points[chosen[-1]]) ** 2).sum(1))
-    return np.array(chosen, np.intp)
 
 
 def _neutral(rig: Rig) -> NDArray[np.float64]:
@@ -133,33 +119,34 @@ def _crests(rig: Rig, faces: NDArray[np.intp]) -> NDArray[np.intp]:
     return crests
 
 
-def _at_vertices(rig: Rig, faces: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """Return corners and shares of one point at every vertex, in its first face; the right half mirrors the left."""
-    vertex, first = np.unique(faces.ravel(), return_index=True)
-    corners, shares = faces[first // 3], _AT_CORNERS[first % 3]
-    if not rig.mirror.size:
-        return corners, shares
-    left = _neutral(rig)[vertex, 0] > -_SEAM
-    return _with_mirror(rig, corners[left], shares[left])
+def _at_vertices(faces: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    """Return corners and shares of one point at every vertex, in its first face."""
+    first = np.unique(faces.ravel(), return_index=True)[1]
+    return faces[first // 3], _AT_CORNERS[first % 3]
 
 
-def _spread(rig: Rig, faces: NDArray[np.intp], count: int) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """Return corners and shares of well spread face centres; the right half mirrors the left."""
-    centre = _neutral(rig)[faces].mean(1)
-    shares = np.full((len(faces), 3), 1 / 3)
-    if not rig.mirror.size:
-        chosen = farthest_points(centre, count)
-        return faces[chosen], shares[chosen]
-    left = np.flatnonzero(centre[:, 0] > 0)
-    half = left[farthest_points(centre[left], count // 2)]
-    return _with_mirror(rig, faces[half], shares[half])
+def _inside(faces: NDArray[np.intp], shares: NDArray[np.float64]) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    return np.repeat(faces, len(shares), axis=0), np.tile(shares, (len(faces), 1))
 
 
-def _with_mirror(
+def _grid(count: int) -> NDArray[np.float64]:
+    """Return the (count^2, 3) centres of the triangles into which a face is cut."""
+    steps = range(count)
+    upright = [(i + 1 / 3, j + 1 / 3) for i in steps for j in steps if i + j < count]
+    turned = [(i + 2 / 3, j + 2 / 3) for i in steps for j in steps if i + j < count - 1]
+    first = np.array(upright + turned) / count
+    return np.column_stack([first, 1 - first.sum(1)])
+
+
+def _mirrored(
     rig: Rig, corners: NDArray[np.intp], shares: NDArray[np.float64]
 ) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    twins = rig.mirror[corners][:, ::-1]
-    return np.concatenate([corners, twins]), np.concatenate([shares, shares[:, ::-1]])
+    """Return the points of the left half and their mirror images; all points of a rig that is not symmetric."""
+    if not rig.mirror.size:
+        return corners, shares
+    left = (_neutral(rig)[corners, 0] * shares).sum(1) > -_SEAM
+    twins = rig.mirror[corners[left]][:, ::-1]
+    return np.concatenate([corners[left], twins]), np.concatenate([shares[left], shares[left][:, ::-1]])
 
 
 def _points(region: str, corners: NDArray[np.intp], shares: NDArray[np.float64]) -> Anchors:

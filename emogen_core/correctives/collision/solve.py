@@ -81,7 +81,7 @@ def solve_collisions(rig: Rig, identity: str, weights: NDArray[np.float32]) -> C
     Raises:
         InvalidInputError: bad weights, unknown identity, or a rig without collision correctives.
     """
-    alpha = checked_weights(weights, len(rig.shape_names)).astype(np.float64)
+    alpha = checked_weights(weights, len(rig.shape_names)).copy()
     model = collision_model(rig, identity)
     alpha[:, -_COUNT:] = 0
     faces = [FaceSolver(model, patch, anchors) for patch, anchors in zip(*model.evaluate(alpha), strict=True)]

@@ -105,7 +105,7 @@ def test_most_depth_is_gone():
 
 def test_detection_is_the_slow_one():
     model = collision_model(RIG, "female")
-    patch, anchors = model.evaluate(faces()[0].astype(np.float64))
+    patch, anchors = model.evaluate(faces()[0])
     for row in np.flatnonzero(faces()[1].collided.any(1))[:3]:
         full = detect(anchors[row], model.kind, patch[row], model.triangles)
         some = np.unique(
@@ -123,7 +123,7 @@ def test_eqs_3_and_4_are_what_a_unit_of_a_corrective_opens():
     model = collision_model(RIG, "female")
     weights, result = faces()
     row = int(np.argmax(result.depth_before))
-    patch, anchors = (part[0] for part in model.evaluate(weights[row : row + 1].astype(np.float64)))
+    patch, anchors = (part[0] for part in model.evaluate(weights[row : row + 1]))
     found = detect(anchors, model.kind, patch, model.triangles)
     for contacts, axis, sign in ((found.lips, UP, 1), (found.teeth, OUT, -1)):
         jacobian, b = constraints(model, contacts, axis)
@@ -141,7 +141,7 @@ def test_increments_minimise_eq_5():
     model = collision_model(RIG, "female")
     weights, result = faces()
     row = int(np.argmax(result.depth_before * ~result.collided[:, TEETH]))
-    patch, anchors = (part[0] for part in model.evaluate(weights[row : row + 1].astype(np.float64)))
+    patch, anchors = (part[0] for part in model.evaluate(weights[row : row + 1]))
     found = detect(anchors, model.kind, patch, model.triangles)
     jacobian, b = constraints(model, found.lips, UP)
     step = increments(model, found, np.zeros(8))
