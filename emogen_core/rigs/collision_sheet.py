@@ -1,4 +1,4 @@
-"""The ten faces that collide worst, before and after: what figures of a collision stage cannot show."""
+"""The faces that collide worst, before and after: what figures of a collision stage cannot show."""
 
 from __future__ import annotations
 
@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 
     from emogen_core.face.rig import Rig
 
-WORST = 10
+# Of every head: the deepest by lips, then the deepest by teeth.
+WORST = (3, 2)
 _DRAWN = RenderSettings(800, 960)
 # The mouth's part of a portrait: left, top, right, bottom as shares.
 _MOUTH = (0.27, 0.5, 0.73, 0.84)
@@ -36,11 +37,11 @@ def collision_sheet(
     seed: int = 1,
     backend: str = "pyrender",
 ) -> None:
-    """Draw the mouths of the ten deepest of some random faces, uncorrected above corrected, as a JPEG file.
+    """Draw the mouths of the deepest of some random faces, uncorrected above corrected, as a JPEG file.
 
     Args:
         path: the file to write.
-        identities: heads that take an equal share of the ten.
+        identities: the heads; `WORST` faces of each.
         faces: random faces a head.
         seed: of the faces.
         backend: which renderer draws.
@@ -51,7 +52,7 @@ def collision_sheet(
     renderer, rig = make_renderer(backend)
     tiles = []
     for identity in identities:
-        before, after, depths = _worst(rig, identity, WORST // len(identities), faces, seed)
+        before, after, depths = _worst(rig, identity, random_genes(rig, faces, seed))
         pictures = renderer.draw(identity, np.concatenate([before, after]), _DRAWN)
         above, below = np.split(pictures, 2)
         tiles += [_tile(identity, *parts) for parts in zip(above, below, depths, strict=True)]
@@ -64,15 +65,17 @@ def collision_sheet(
 
 
 def _worst(
-    rig: Rig, identity: str, count: int, faces: int, seed: int
+    rig: Rig, identity: str, genes: NDArray[np.float64]
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float64]]:
-    """Return weights without and with correction, and (count, 2) depths, of the deepest faces."""
-    genes = random_genes(rig, faces, seed)
+    """Return weights (n, K) without and with correction, and (n, 2) depths, of the deepest faces."""
     before = shape_weights(rig, genes)
-    depth = dense_depth(rig, identity, before).max(1)
-    chosen = np.argsort(-depth)[:count]
+    depth = dense_depth(rig, identity, before)
+    chosen: list[int] = []
+    for kind, count in enumerate(WORST):
+        ranked = np.argsort(-depth[:, kind], kind="stable").tolist()
+        chosen += [row for row in ranked if row not in chosen][:count]
     after = face_weights(rig, identity, genes[chosen]).weights
-    return before[chosen], after, np.stack([depth[chosen], dense_depth(rig, identity, after).max(1)], 1)
+    return before[chosen], after, np.stack([depth[chosen].max(1), dense_depth(rig, identity, after).max(1)], 1)
 
 
 def _tile(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from emogen_core.correctives.collision.detect import detect
-from emogen_core.correctives.collision.model import collision_model
+from emogen_core.correctives.collision.model import judge_model
 from emogen_core.face.evaluate import checked_weights
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 def dense_depth(rig: Rig, identity: str, weights: NDArray[np.float32]) -> NDArray[np.float64]:
     """Return how deep lips and teeth stand in the lower lip, on the mesh as it is drawn.
 
-    Ten points on every face of the anchor regions are tried.
+    28 points on every face of the anchor regions are tried.
 
     Args:
         rig: a rig with the eight collision correctives.
@@ -33,9 +33,9 @@ def dense_depth(rig: Rig, identity: str, weights: NDArray[np.float32]) -> NDArra
         InvalidInputError: bad weights, unknown identity, or a rig without collision correctives.
     """
     alpha = checked_weights(weights, len(rig.shape_names))
-    model = collision_model(rig, identity, dense=True)
+    model = judge_model(rig, identity)
     depths = np.zeros((len(alpha), 2))
     for row, one in enumerate(alpha):
-        patch, anchors = model.evaluate(one[None])
-        depths[row] = detect(anchors[0], model.kind, patch[0], model.triangles).depths
+        patch, anchors = model.evaluate(one)
+        depths[row] = detect(anchors, model.kind, patch, model.triangles).depths
     return depths

@@ -19,6 +19,7 @@ from emogen_core.errors import InvalidInputError, expected
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from emogen_core.correctives.collision.regions import Anchors
     from emogen_core.face.rig import Rig
 
 # Correctives of a type: outer left, inner left, inner right, outer right.
@@ -74,21 +75,38 @@ class CollisionModel:
         return self.anchor_offsets[-2 * ZONES :].astype(np.float64)
 
     def evaluate(self, weights: NDArray[np.float32]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return patch (B, R, 3) and anchors (B, A, 3) of faces given by (B, K) weights."""
-        return _worn(self.patch, self.patch_offsets, weights), _worn(self.anchors, self.anchor_offsets, weights)
+        """Return patch (R, 3) and anchors (A, 3) of a face given by its (K,) weights."""
+        used = np.flatnonzero(weights)
+        moved = (_sum(weights[used], offsets[used]) for offsets in (self.patch_offsets, self.anchor_offsets))
+        return self.patch + next(moved), self.anchors + next(moved)
 
 
-@lru_cache(maxsize=64)
-def collision_model(rig: Rig, identity: str, *, dense: bool = False) -> CollisionModel:
-    """Return the model of an identity, with the anchors solved for or with the judge's many.
+@lru_cache(maxsize=32)
+def collision_model(rig: Rig, identity: str) -> CollisionModel:
+    """Return the model of an identity with the anchors that are solved for.
 
     Raises:
         InvalidInputError: unknown identity, or the rig has no eight collision correctives and mouth regions.
     """
+    _need_regions(rig)
+    return _model(rig, identity, solver_anchors(rig))
+
+
+# Ten times the anchors, and memory: few are kept.
+@lru_cache(maxsize=2)
+def judge_model(rig: Rig, identity: str) -> CollisionModel:
+    """Return the model of an identity with the judge's many anchors; raises as `collision_model`."""
+    _need_regions(rig)
+    return _model(rig, identity, judge_anchors(rig))
+
+
+def _need_regions(rig: Rig) -> None:
     if not has_regions(rig):
         raise InvalidInputError(f"rig: {expected('8 collision correctives, lips and teeth', rig.collision_shapes)}")
+
+
+def _model(rig: Rig, identity: str, anchors: Anchors) -> CollisionModel:
     patch, local = np.unique(target_faces(rig), return_inverse=True)
-    anchors = judge_anchors(rig) if dense else solver_anchors(rig)
     neutral, offsets = rig.neutral(identity).astype(np.float64), rig.shape_offsets(identity)
     places = anchors.sample(neutral[None])[0]
     return CollisionModel(
@@ -103,13 +121,9 @@ def collision_model(rig: Rig, identity: str, *, dense: bool = False) -> Collisio
     )
 
 
-def _worn(
-    neutral: NDArray[np.float64], offsets: NDArray[np.float32], weights: NDArray[np.float32]
-) -> NDArray[np.float64]:
-    # Faces use few of the shapes, and reading the others' offsets costs more than the product.
-    used = weights.any(0)
-    product = weights[:, used] @ offsets[used].reshape(-1, neutral.size)
-    return neutral + product.reshape(len(weights), *neutral.shape)
+def _sum(weights: NDArray[np.float32], offsets: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return (n, 3) weighted offsets. A face uses few of the shapes: reading all would cost more than the product."""
+    return (weights @ offsets.reshape(len(weights), 3 * offsets.shape[1])).reshape(-1, 3)
 
 
 def _twins(places: NDArray[np.float64]) -> NDArray[np.intp]:

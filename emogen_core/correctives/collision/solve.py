@@ -84,7 +84,8 @@ def solve_collisions(rig: Rig, identity: str, weights: NDArray[np.float32]) -> C
     alpha = checked_weights(weights, len(rig.shape_names)).copy()
     model = collision_model(rig, identity)
     alpha[:, -_COUNT:] = 0
-    faces = [FaceSolver(model, patch, anchors) for patch, anchors in zip(*model.evaluate(alpha), strict=True)]
+    # One by one, not as one product: a face must not depend, in its last bits, on the batch that it came in.
+    faces = [FaceSolver(model, *model.evaluate(row)) for row in alpha]
     solved = [face.solve() for face in faces]
     return CollisionResult(
         np.array([w for w, _, _ in solved], np.float32).reshape(-1, _COUNT),

@@ -105,15 +105,15 @@ def test_most_depth_is_gone():
 
 def test_detection_is_the_slow_one():
     model = collision_model(RIG, "female")
-    patch, anchors = model.evaluate(faces()[0])
     for row in np.flatnonzero(faces()[1].collided.any(1))[:3]:
-        full = detect(anchors[row], model.kind, patch[row], model.triangles)
+        patch, anchors = model.evaluate(faces()[0][row])
+        full = detect(anchors, model.kind, patch, model.triangles)
         some = np.unique(
             np.concatenate([full.lips.anchor[:6], full.teeth.anchor[:6], np.arange(0, len(model.kind), 97)])
         )
-        quick = detect(anchors[row][some], model.kind[some], patch[row], model.triangles)
+        quick = detect(anchors[some], model.kind[some], patch, model.triangles)
         for kind, found in ((LIPS, quick.lips), (TEETH, quick.teeth)):
-            wanted, worst = slow.contacts(anchors[row][some], model.kind[some], kind, patch[row], model.triangles)
+            wanted, worst = slow.contacts(anchors[some], model.kind[some], kind, patch, model.triangles)
             assert quick.depths[kind] == pytest.approx(worst)
             assert [pair[:2] for pair in wanted] == list(zip(found.anchor, found.face, strict=True))
             assert found.depth == pytest.approx([pair[3] for pair in wanted])
@@ -123,7 +123,7 @@ def test_eqs_3_and_4_are_what_a_unit_of_a_corrective_opens():
     model = collision_model(RIG, "female")
     weights, result = faces()
     row = int(np.argmax(result.depth_before))
-    patch, anchors = (part[0] for part in model.evaluate(weights[row : row + 1]))
+    patch, anchors = model.evaluate(weights[row])
     found = detect(anchors, model.kind, patch, model.triangles)
     for contacts, axis, sign in ((found.lips, UP, 1), (found.teeth, OUT, -1)):
         jacobian, b = constraints(model, contacts, axis)
@@ -141,7 +141,7 @@ def test_increments_minimise_eq_5():
     model = collision_model(RIG, "female")
     weights, result = faces()
     row = int(np.argmax(result.depth_before * ~result.collided[:, TEETH]))
-    patch, anchors = (part[0] for part in model.evaluate(weights[row : row + 1]))
+    patch, anchors = model.evaluate(weights[row])
     found = detect(anchors, model.kind, patch, model.triangles)
     jacobian, b = constraints(model, found.lips, UP)
     step = increments(model, found, np.zeros(8))
