@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial import cKDTree
 
+from emogen_core.correctives.collision.rays import NONE
 from emogen_core.correctives.collision.regions import has_regions, judge_anchors, solver_anchors, target_faces
 from emogen_core.errors import InvalidInputError, expected
 
@@ -24,8 +25,9 @@ if TYPE_CHECKING:
 
 # Correctives of a type: outer left, inner left, inner right, outer right.
 ZONES = 4
-# Millimetres within which a place is another's mirror image: above a rig file's rounding, below any edge.
+# Millimetres within which something is another's mirror image: above a rig file's rounding, below what matters.
 _SAME = 0.03
+_REFLECTED = np.array([-1, 1, 1], np.float32)
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,8 +41,6 @@ class CollisionModel:
         anchors: (A, 3) neutral anchors, millimetres.
         patch_offsets: (K, R, 3) float32 of every shape.
         anchor_offsets: (K, A, 3) float32 of every shape; its last eight rows are eq. 2.
-        mirror: (R,) mirror image of every patch vertex, and ``anchor_mirror`` (A,) of every anchor; empty for a head
-            that is not symmetric.
     """
 
     triangles: NDArray[np.intp]
@@ -49,18 +49,28 @@ class CollisionModel:
     anchors: NDArray[np.float64]
     patch_offsets: NDArray[np.float32]
     anchor_offsets: NDArray[np.float32]
-    mirror: NDArray[np.intp]
-    anchor_mirror: NDArray[np.intp]
 
     @cached_property
-    def left(self) -> NDArray[np.intp]:
-        """Indices of the anchors on the head's left half."""
-        return np.flatnonzero(self.anchors[:, 0] > 0)
+    def moving(self) -> NDArray[np.bool_]:
+        """(K,) whether a shape moves anything here."""
+        return np.array([a.any() or b.any() for a, b in zip(self.patch_offsets, self.anchor_offsets, strict=True)])
+
+    @cached_property
+    def shape_twins(self) -> NDArray[np.intp]:
+        """(K,) the shape that is each shape's mirror image here, or itself; `NONE` where there is none."""
+        places = np.concatenate([_twins(self.patch), _twins(self.anchors, len(self.patch))])
+        return _shape_twins(np.concatenate([self.patch_offsets, self.anchor_offsets], axis=1), places)
+
+    def is_symmetric(self, weights: NDArray[np.float32]) -> bool:
+        """Return whether the mouth of a face given by its (K,) weights is its own mirror image."""
+        used = self.moving & (weights > 0)
+        twins = self.shape_twins[used]
+        return bool((twins != NONE).all() and (weights[twins] == weights[used]).all())
 
     @cached_property
     def half(self) -> CollisionModel:
         """The same mouth with the left half's anchors only."""
-        left = self.left
+        left = np.flatnonzero(self.anchors[:, 0] > 0)
         offsets = self.anchor_offsets[:, left]
         return replace(self, kind=self.kind[left], anchors=self.anchors[left], anchor_offsets=offsets)
 
@@ -76,7 +86,7 @@ class CollisionModel:
 
     def evaluate(self, weights: NDArray[np.float32]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return patch (R, 3) and anchors (A, 3) of a face given by its (K,) weights."""
-        used = np.flatnonzero(weights)
+        used = np.flatnonzero((weights > 0) & self.moving)
         moved = (_sum(weights[used], offsets[used]) for offsets in (self.patch_offsets, self.anchor_offsets))
         return self.patch + next(moved), self.anchors + next(moved)
 
@@ -108,16 +118,13 @@ def _need_regions(rig: Rig) -> None:
 def _model(rig: Rig, identity: str, anchors: Anchors) -> CollisionModel:
     patch, local = np.unique(target_faces(rig), return_inverse=True)
     neutral, offsets = rig.neutral(identity).astype(np.float64), rig.shape_offsets(identity)
-    places = anchors.sample(neutral[None])[0]
     return CollisionModel(
         triangles=local.reshape(-1, 3),
         kind=anchors.kind,
         patch=neutral[patch],
-        anchors=places,
+        anchors=anchors.sample(neutral[None])[0],
         patch_offsets=offsets[:, patch],
         anchor_offsets=anchors.sample(offsets).astype(np.float32),
-        mirror=_twins(neutral[patch]),
-        anchor_mirror=_twins(places),
     )
 
 
@@ -126,8 +133,26 @@ def _sum(weights: NDArray[np.float32], offsets: NDArray[np.float32]) -> NDArray[
     return (weights @ offsets.reshape(len(weights), 3 * offsets.shape[1])).reshape(-1, 3)
 
 
-def _twins(places: NDArray[np.float64]) -> NDArray[np.intp]:
-    """Return (n,) the index of the place at every place's mirror image; empty if one has none."""
+def _twins(places: NDArray[np.float64], first: int = 0) -> NDArray[np.intp]:
+    """Return (n,) the index, counted from ``first``, of the place at every place's mirror image, or `NONE`."""
     found = cKDTree(places).query(places * (-1, 1, 1))
     gap, twin = np.asarray(found[0]), np.asarray(found[1], np.intp)
-    return twin if gap.max() < _SAME else np.zeros(0, np.intp)
+    return np.where(gap < _SAME, twin + first, NONE)
+
+
+def _shape_twins(offsets: NDArray[np.float32], places: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Return (K,) which of the (K, n, 3) shapes is every shape's mirror image; ``places`` are mirror images too."""
+    twins = np.full(len(offsets), NONE, np.intp)
+    if (places == NONE).any():
+        return twins
+    one_sided = []
+    for shape, moved in enumerate(offsets):
+        if np.abs(moved - moved[places] * _REFLECTED).max() < _SAME:
+            twins[shape] = shape
+        else:
+            one_sided.append(shape)
+    for shape in one_sided:
+        image = offsets[shape, places] * _REFLECTED
+        found = [other for other in one_sided if np.abs(offsets[other] - image).max() < _SAME]
+        twins[shape] = found[0] if found else NONE
+    return twins

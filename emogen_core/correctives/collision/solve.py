@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from emogen_core.correctives.collision.bounded import box_least_squares
-from emogen_core.correctives.collision.detect import TOLERANCE, Detection, detect
+from emogen_core.correctives.collision.detect import Detection, detect
 from emogen_core.correctives.collision.model import ZONES, collision_model
 from emogen_core.correctives.collision.rays import OUT, UP
 from emogen_core.correctives.collision.regions import LIPS, TEETH
@@ -47,8 +47,6 @@ _TWIN = np.array([3, 2, 1, 0, 7, 6, 5, 4])
 _ALTERNATIONS = 8
 # A step that moves no lip by a hundredth of a millimetre: the correctives are at their bounds.
 _NOTHING = 1e-3
-# Two sides are the same face when they differ less than the file's rounding of a dozen shapes can add up to.
-_SYMMETRIC = 0.03
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +83,7 @@ def solve_collisions(rig: Rig, identity: str, weights: NDArray[np.float32]) -> C
     model = collision_model(rig, identity)
     alpha[:, -_COUNT:] = 0
     # One by one, not as one product: a face must not depend, in its last bits, on the batch that it came in.
-    faces = [FaceSolver(model, *model.evaluate(row)) for row in alpha]
+    faces = [FaceSolver(model, row) for row in alpha]
     solved = [face.solve() for face in faces]
     return CollisionResult(
         np.array([w for w, _, _ in solved], np.float32).reshape(-1, _COUNT),
@@ -99,20 +97,11 @@ def solve_collisions(rig: Rig, identity: str, weights: NDArray[np.float32]) -> C
 class FaceSolver:
     """One face while it is corrected; of a symmetric one only the left half is looked at."""
 
-    def __init__(
-        self,
-        model: CollisionModel,
-        patch: NDArray[np.float64],
-        anchors: NDArray[np.float64],
-        *,
-        tolerance: float = TOLERANCE,
-        margin: float = MARGIN,
-    ) -> None:
-        """Take a face's patch (R, 3) and anchors (A, 3), and the millimetres that do not count and that are added."""
-        self.tolerance, self.margin = tolerance, margin
-        self.symmetric = is_symmetric(model, patch, anchors)
+    def __init__(self, model: CollisionModel, weights: NDArray[np.float32]) -> None:
+        """Take the face's (K,) weights, those of the collision correctives 0."""
+        self.symmetric = model.is_symmetric(weights)
         self.model = model.half if self.symmetric else model
-        self.patch, self.anchors = patch, anchors[model.left] if self.symmetric else anchors
+        self.patch, self.anchors = self.model.evaluate(weights)
         self.before = self.detect(np.zeros(_COUNT))
 
     def detect(self, weights: NDArray[np.float64]) -> Detection:
@@ -121,14 +110,14 @@ class FaceSolver:
         if weights.any():
             patch = patch + _sum(weights, self.model.unit_patch)
             anchors = anchors + _sum(weights, self.model.unit_anchors)
-        return detect(anchors, self.model.kind, patch, self.model.triangles, tolerance=self.tolerance)
+        return detect(anchors, self.model.kind, patch, self.model.triangles)
 
     def solve(self) -> tuple[NDArray[np.float64], float, int]:
         """Return the (8,) weights, the depth they leave, and the rounds it took."""
         weights = best = np.zeros(_COUNT)
         found, depth, rounds = self.before, self.before.depth, 0
         while found.collides and rounds < ROUNDS:
-            step = increments(self.model, found, weights, margin=self.margin, mirrored=self.symmetric)
+            step = increments(self.model, found, weights, mirrored=self.symmetric)
             if step.max() < _NOTHING:
                 break
             weights = weights + step
@@ -145,26 +134,15 @@ def _sum(weights: NDArray[np.float64], offsets: NDArray[np.float64]) -> NDArray[
     return (weights @ offsets.reshape(_COUNT, -1)).reshape(offsets.shape[1:])
 
 
-def is_symmetric(model: CollisionModel, patch: NDArray[np.float64], anchors: NDArray[np.float64]) -> bool:
-    """Return whether the (R, 3) lower lip and the (A, 3) anchors of a face are their own mirror images."""
-    pairs = ((patch, model.mirror), (anchors, model.anchor_mirror))
-    return all(len(twin) and np.abs(p - p[twin] * (-1, 1, 1)).max() < _SYMMETRIC for p, twin in pairs)
-
-
 def increments(
-    model: CollisionModel,
-    found: Detection,
-    weights: NDArray[np.float64],
-    *,
-    margin: float = MARGIN,
-    mirrored: bool = False,
+    model: CollisionModel, found: Detection, weights: NDArray[np.float64], *, mirrored: bool = False
 ) -> NDArray[np.float64]:
     """Return the (8,) increments in [0, 1 - weights] that minimise eq. 5 for the contacts found.
 
     ``mirrored`` adds the mirror image of every constraint.
     """
     listed = ((LIPS, found.lips, UP), (TEETH, found.teeth, OUT))
-    parts = [(kind, *constraints(model, pairs, axis, margin)) for kind, pairs, axis in listed if len(pairs)]
+    parts = [(kind, *constraints(model, pairs, axis)) for kind, pairs, axis in listed if len(pairs)]
     if mirrored:
         parts = [(kind, np.concatenate([a, a[:, _TWIN]]), np.concatenate([b, b])) for kind, a, b in parts]
     ridge = (1 - DATA_WEIGHT) * sum(len(b) for _, _, b in parts)
@@ -178,11 +156,11 @@ def increments(
 
 
 def constraints(
-    model: CollisionModel, contacts: Contacts, axis: int, margin: float = MARGIN
+    model: CollisionModel, contacts: Contacts, axis: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return ``A`` (M, 8) and ``b`` (M,) of one type, millimetres: eq. 3 along the vertical, eq. 4 outward."""
     corners = model.triangles[contacts.face]
     lower = np.einsum("umc,mc->mu", model.unit_patch[:, corners, axis], contacts.corners)
     anchor = model.unit_anchors[:, contacts.anchor, axis].T
     opened = anchor - lower if axis == UP else lower - anchor
-    return opened, contacts.depth + margin
+    return opened, contacts.depth + MARGIN
