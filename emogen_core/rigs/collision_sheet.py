@@ -11,7 +11,7 @@ from emogen_core.correctives.collision.judge import dense_depth
 from emogen_core.correctives.pipeline import face_weights, shape_weights
 from emogen_core.rendering.protocol import RenderSettings
 from emogen_core.rendering.setup import make_renderer
-from emogen_core.rigs.check import random_genes
+from emogen_core.rigs.random_faces import random_genes
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -20,7 +20,9 @@ Source = Annotated[Path | None, typer.Option(help="The CC0 sources: the wheel or
 RigOut = Annotated[Path, typer.Option("--out", help="Rig file to write.")]
 LookOut = Annotated[Path, typer.Option("--look", help="Look file to write.")]
 Sheets = Annotated[Path, typer.Option("--out", help="Folder to write to.")]
-Faces = Annotated[int, typer.Option(min=1, help="How many random faces are judged.")]
+Faces = Annotated[int, typer.Option(min=1, help="How many random faces of every head are judged.")]
+Identity = Annotated[list[str] | None, typer.Option(help="A head to judge; may be repeated. All of them if left out.")]
+Workers = Annotated[int, typer.Option(min=1, help="Processes that work on the heads, one core each.")]
 Seed = Annotated[int, typer.Option(help="The same seed gives the same faces.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 
@@ -50,11 +52,20 @@ def sheet(out: Sheets = Path("sheets")) -> None:
 
 
 @app.command("check")
-def check(faces: Faces = 200, seed: Seed = 0, json_: Json = False) -> None:
-    """Measure the face model on random faces."""
+def check(
+    faces: Faces = 1000, seed: Seed = 1, identity: Identity = None, workers: Workers = 1, json_: Json = False
+) -> None:
+    """Measure the face model on random faces of every head, and hold the figures against the bars."""
+    checks, tables = (import_module(f"emogen_core.rigs.{name}") for name in ("check", "check_table"))
     with plainly():
-        report = import_module("emogen_core.rigs.check").check_rig(load_bundled_rig(), faces=faces, seed=seed)
-    typer.echo(json.dumps(report, indent=2) if json_ else "\n".join(f"{name}: {v}" for name, v in report.items()))
+        report = checks.check_rig(
+            load_bundled_rig(),
+            checks.Sample(faces, seed),
+            identities=identity or (),
+            workers=workers,
+            progress=lambda head: typer.echo(head, err=True),
+        )
+    typer.echo(json.dumps(report, indent=2) if json_ else tables.check_text(report))
 
 
 def _cache() -> Path:

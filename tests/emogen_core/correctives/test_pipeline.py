@@ -7,7 +7,7 @@ from emogen_core.correctives.collision import solve_collisions
 from emogen_core.correctives.pipeline import face_weights, shape_weights
 from emogen_core.errors import InvalidInputError
 from emogen_core.face.bundled import load_bundled_rig
-from emogen_core.rigs.check import random_genes
+from emogen_core.rigs.random_faces import random_genes
 from tests.rig_factory import small_rig
 
 

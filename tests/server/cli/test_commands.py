@@ -61,9 +61,15 @@ def test_doctor_tells_where_everything_is(data_dir):
 
 
 def test_rig_check_measures(data_dir):
-    done = emogen(data_dir, "rig", "check", "--faces", "4", "--json")
-    assert done.returncode == 0, done.stderr
-    assert json.loads(done.stdout)
+    sample = ["rig", "check", "--faces", "4", "--identity", "male"]
+    done = emogen(data_dir, *sample, "--json")
+    assert (done.returncode, done.stderr) == (0, "male\n")
+    assert list(json.loads(done.stdout)["identities"]) == ["male"]
+    assert "| `male` " in emogen(data_dir, *sample).stdout
+    wrong = emogen(data_dir, "rig", "check", "--identity", "nobody")
+    assert wrong.returncode == 1
+    assert wrong.stderr.startswith("identity: expected one of [")
+    assert wrong.stderr.count("\n") == 1
 
 
 def test_help_names_every_command(data_dir):

@@ -17,8 +17,7 @@ from emogen_core.correctives.pipeline import face_weights, shape_weights
 from emogen_core.errors import InvalidInputError
 from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.face.evaluate import vertices
-from emogen_core.rigs.check import random_genes
-from emogen_core.rigs.collision_check import check_collisions
+from emogen_core.rigs.random_faces import random_genes
 from tests.emogen_core.correctives.collision import slow
 
 RIG = load_bundled_rig()
@@ -162,14 +161,6 @@ def test_anchors_are_mirrored_and_the_judge_has_five_times_as_many():
     assert {frozenset(RIG.mirror[list(row)].tolist()) for row in faces_of} == faces_of
     judge = np.bincount(judge_anchors(RIG).kind)
     assert (judge >= 5 * np.bincount(anchors.kind)).all()
-
-
-def test_a_check_says_all_that_is_promised():
-    report = check_collisions(RIG, "male", faces=20, seed=3)
-    assert report["untouched_identical"]
-    assert report["depth_after_mm"]["max"] <= report["depth_before_mm"]["max"]
-    with pytest.raises(InvalidInputError, match="at least 1, got 0"):
-        check_collisions(RIG, "male", faces=0)
 
 
 def test_bad_input_is_refused():
