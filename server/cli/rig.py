@@ -10,9 +10,10 @@ from typing import Annotated
 import typer
 
 from emogen_core.face.bundled import BUNDLED_RIG, load_bundled_rig
+from emogen_core.face.container import check_writable
 from emogen_core.rendering.setup import BUNDLED_LOOK
 
-from .common import plainly, stop
+from .common import made_folder, plainly, stop
 
 app = typer.Typer(help="Bake, draw and check the face model.", no_args_is_help=True)
 
@@ -36,6 +37,8 @@ def build(source: Source = None, out: RigOut = BUNDLED_RIG, look: LookOut = BUND
     except ImportError as error:
         raise stop(f"Baking needs {error.name}: pip install 'emogen-study[build]' from the checkout.") from error
     with plainly():
+        for path in (out, look):
+            check_writable(path)
         data = sources.open_source(source) if source else sources.fetch(_cache())
         rig = bundled.build_rig(data.root, out)
         typer.echo(f"{out}: {rig.hash}")
@@ -47,7 +50,7 @@ def build(source: Source = None, out: RigOut = BUNDLED_RIG, look: LookOut = BUND
 def sheet(out: Sheets = Path("sheets")) -> None:
     """Draw every gene, identity and emotion, and random faces."""
     with plainly():
-        for path in import_module("emogen_core.rigs.sheets").make_sheets(out):
+        for path in import_module("emogen_core.rigs.sheets").make_sheets(made_folder(out)):
             typer.echo(str(path))
 
 

@@ -41,6 +41,21 @@ def test_what_collides_depends_on_the_head():
         face_weights(rig, "nobody", genes)
 
 
+@pytest.mark.parametrize(
+    ("genes", "said"),
+    [
+        (np.zeros((1, 7)), r"genes: expected shape \(faces, 8\), got \(1, 7\)"),
+        (np.zeros(8), r"genes: expected shape \(faces, 8\), got \(8,\)"),
+        (np.full((1, 8), np.nan), "genes: expected finite values in .0, 1., got nan"),
+        (np.full((1, 8), 1.5), "got 1.5"),
+        (np.full((1, 8), "smile"), "genes: expected numbers"),
+    ],
+)
+def test_bad_genes_are_refused_with_what_was_got(genes, said):
+    with pytest.raises(InvalidInputError, match=said):
+        face_weights(small_rig(), "male", genes)
+
+
 def test_a_face_does_not_depend_on_its_batch():
     rig = load_bundled_rig()
     genes = random_genes(rig, 10, 6)

@@ -76,3 +76,22 @@ def test_help_names_every_command(data_dir):
     said = emogen(data_dir, "--help").stdout
     for command in ("serve", "doctor", "rig", "simulate", "export", "bench"):
         assert command in said
+
+
+@pytest.mark.parametrize(
+    ("command", "said"),
+    [
+        (["rig", "build", "--out", "{folder}"], "folder: expected a file to write, got 'a folder'\n"),
+        (["rig", "build", "--look", "{folder}"], "folder: expected a file to write, got 'a folder'\n"),
+        (["rig", "build", "--out", "{folder}/none/x"], "x: expected a folder to write to, got '{folder}/none'\n"),
+        (["rig", "sheet", "--out", "{file}"], "--out: expected a folder to write to, got '{file} (File exists)'\n"),
+    ],
+)
+def test_a_place_that_cannot_be_written_is_one_sentence(data_dir, tmp_path, command, said):
+    folder, file = tmp_path / "folder", tmp_path / "file"
+    folder.mkdir()
+    file.write_text("mine")
+    done = emogen(data_dir, *(word.format(folder=folder, file=file) for word in command))
+    assert (done.returncode, done.stderr) == (1, said.format(folder=folder, file=file))
+    assert sorted(tmp_path.rglob("*")) == [file, folder]
+    assert file.read_text() == "mine"
