@@ -50,6 +50,7 @@ def params_of(rig: Rig, config: StudyConfig) -> SearchParams:
             rig,
             gaze=search.gaze,
             lids=search.lids,
+            lateral=search.lateral,
             excluded=search.excluded_genes,
             generations=config.generations,
             minimum=1,
