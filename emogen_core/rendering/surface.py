@@ -128,7 +128,9 @@ class Surface:
         style = self.look.style(identity)
         smooth = np.ones(len(self._creased), np.float32)
         for gain, mask in zip(self._wrinkle_gains, self._masks, strict=True):
-            folded = min(1.0, max(0.0, float(alpha @ gain)))
+            # The more muscles fold the same skin, the less each of them adds: strong faces stay apart.
+            pull = max(0.0, float(alpha @ gain))
+            folded = pull / (1 + pull**3) ** (1 / 3)
             active = style.wrinkles * (style.lines + (1 - style.lines) * folded)
             if active:
                 smooth *= 1 - active * mask

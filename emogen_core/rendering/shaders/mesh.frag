@@ -47,10 +47,11 @@ void main() {
         + 0.05 * pow(h, 40.0));
     colour = vec4(mix(developed(c), background, extra.y), 1.0);
 #else
-    float relief = (texel.a - 0.502) * 1.5 * extra.x;
+    // What a fold's slope adds to the light or takes from it; in its shadow red light remains longest.
+    float relief = (texel.a - 0.5) * 2.0 * extra.x;
     // Pores, hair and brows are darker than skin and shine less: that breaks the highlight up.
-    float rough = clamp(1.0 + 2.2 * (texel.g / max(tone.g, 0.05) - 1.0), 0.12, 1.5);
-    vec3 c = albedo * diffuse * (1.0 + relief * vec3(0.85, 1.0, 1.05)) + shine * rough * (1.0 + relief);
+    float rough = clamp(1.0 + 3.2 * (texel.g / max(tone.g, 0.05) - 1.0), 0.10, 1.6);
+    vec3 c = albedo * diffuse * (1.0 + relief * vec3(0.80, 1.0, 1.06)) + shine * rough * max(1.0 + 1.8 * relief, 0.0);
     colour = vec4(mix(developed(c), background, extra.y), 1.0);
 #endif
 #endif

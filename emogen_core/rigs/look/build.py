@@ -112,7 +112,7 @@ def _style(preset: Preset, tone: tuple[float, float, float]) -> Style:
         bake=preset.name,
         tone=tone,
         lash=(red, green, blue),
-        wrinkles=1.0 if preset.old else 0.5,
+        wrinkles=1.0 if preset.old else 0.62,
         lines=0.30 if preset.old else 0.0,
         shine=0.80 if preset.old else 1.0,
     )
