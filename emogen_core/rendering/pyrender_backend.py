@@ -52,9 +52,8 @@ if TYPE_CHECKING:
 
 _KINDS = {"skin": {}, "eyes": {"KIND_EYE": 1}, "lashes": {"KIND_LASH": 1}}
 _SUPERSAMPLING = 2
-# Where the bust starts to fade and where it is gone, in heights of the picture above its lower edge, and how much
-# earlier that is towards the sides: shoulders never reach the frame.
-_FADE = (0.145, 0.0, 0.58)
+# From so many drawn rows on, a texel of the face is larger than a pixel.
+_MAGNIFIED = 600
 _contexts = threading.local()
 
 
@@ -73,6 +72,7 @@ class PyrenderRenderer:
         self._look = look
         self._textures: dict[tuple[str, str], Any] = {}
         self._cameras: dict[str, Camera] = {}
+        self._framed: dict[str, NDArray[np.int32]] = {}
         self._scene = pyrender.Scene(ambient_light=np.zeros(3), bg_color=np.ones(4))
         self._eye = self._scene.add(pyrender.PerspectiveCamera(FIELD_OF_VIEW, znear=NEAR, zfar=FAR))
         self._meshes = [self._add(name, layer) for name, layer in look.layers.items()]
@@ -105,6 +105,7 @@ class PyrenderRenderer:
         self._context.make_current()
         self._dress(self._look.style(identity))
         camera = self.camera(identity)
+        self._frame(identity, camera)
         self._pass.aim(camera, self._look.style(identity), settings)
         pose = np.eye(4)
         pose[1:3, 3] = camera.height, camera.distance
@@ -141,6 +142,19 @@ class PyrenderRenderer:
         self._scene.add(mesh)
         return mesh
 
+    def _frame(self, identity: str, camera: Camera) -> None:
+        """Draw only what shows of this identity's skin: a tenth of all pixels would be shoulders that have faded out."""
+        primitive = next(mesh for mesh in self._meshes if mesh.name == "skin").primitives[0]
+        if identity not in self._framed:
+            self._framed[identity] = self.surface.framed_skin(identity, camera)
+        triangles = self._framed[identity]
+        if primitive.indices is not triangles:
+            primitive.indices = triangles
+            primitive._bind()
+            data = np.ascontiguousarray(triangles, np.uint32)
+            GL.glBufferData(GL.GL_ELEMENT_ARRAY_BUFFER, data.nbytes, data, GL.GL_STATIC_DRAW)
+            primitive._unbind()
+
     def _dress(self, style: Style) -> None:
         for mesh in self._meshes:
             texture = self._texture(mesh.name, getattr(style, mesh.name))
@@ -148,9 +162,7 @@ class PyrenderRenderer:
 
     def _texture(self, kind: str, name: str) -> Any:
         if (kind, name) not in self._textures:
-            # Blending between mipmaps costs too much on skin; on eyeballs their seams would show.
-            reduced = GL.GL_LINEAR_MIPMAP_NEAREST if kind == "skin" else GL.GL_LINEAR_MIPMAP_LINEAR
-            sampler = pyrender.Sampler(magFilter=GL.GL_LINEAR, minFilter=reduced)
+            sampler = pyrender.Sampler(magFilter=GL.GL_LINEAR, minFilter=GL.GL_LINEAR_MIPMAP_LINEAR)
             pixels = self._look.texture(name, "RGBA").copy()
             if kind == "skin" and "relief" in self._look.textures:
                 pixels[..., 3] = self._look.texture("relief", "L")
@@ -174,12 +186,15 @@ class _Pass(_PyrenderRenderer):
         """Take what the next faces share: view, colours of the head, size and background."""
         self._width, self._height = settings.width, settings.height
         self.viewport_width, self.viewport_height = (_SUPERSAMPLING * n for n in (settings.width, settings.height))
-        span = 2 * (camera.height - camera.bottom)
+        # Blending between mipmaps costs too much, and even choosing one costs a tenth where texels are magnified anyway.
+        large = self.viewport_height >= _MAGNIFIED
+        self._reduced = GL.GL_LINEAR if large else GL.GL_LINEAR_MIPMAP_NEAREST
         self._tones = {"skin": np.array(style.tone), "eyes": np.ones(3), "lashes": np.array(style.lash)}
         self._uniforms = {
-            "fade": np.array([camera.bottom + _FADE[0] * span, camera.bottom + _FADE[1] * span, _FADE[2] / span]),
+            "fade": np.array(camera.fade),
             "background": np.array(settings.background, np.float64) / 255,
             "shine_scale": float(style.shine),
+            "breakup": 3.2 / max(style.tone[1], 0.05),
         }
 
     def delete(self) -> None:
@@ -214,6 +229,19 @@ class _Pass(_PyrenderRenderer):
         for name, value in self._uniforms.items():
             program.set_uniform(name, value)
         program.set_uniform("tone", self._tones[node.mesh.name])
+
+    def _bind_and_draw_primitive(self, primitive: Any, pose: Any, program: Any, flags: int) -> None:
+        """Draw with one texture and no other material: pyrender's own sets some twenty uniforms that we do not have."""
+        material = primitive.material
+        primitive._bind()
+        self._bind_texture(material.baseColorTexture, "material.base_color_texture", program)
+        if material.name == "skin":
+            GL.glTexParameteri(GL.GL_TEXTURE_2D, GL.GL_TEXTURE_MIN_FILTER, self._reduced)
+        for kind, on in ((GL.GL_BLEND, material.alphaMode == "BLEND"), (GL.GL_CULL_FACE, not material.doubleSided)):
+            (GL.glEnable if on else GL.glDisable)(kind)
+        GL.glBlendFunc(GL.GL_SRC_ALPHA, GL.GL_ONE_MINUS_SRC_ALPHA)
+        GL.glDrawElements(GL.GL_TRIANGLES, primitive.indices.size, GL.GL_UNSIGNED_INT, None)
+        primitive._unbind()
 
     def _configure_forward_pass_viewport(self, flags: int) -> None:
         frame = self._frame(self.viewport_width, self.viewport_height)

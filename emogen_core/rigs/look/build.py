@@ -18,6 +18,7 @@ from emogen_core.rigs.look.bake import bake
 from emogen_core.rigs.look.canvas import make_canvas, sample_mask, step
 from emogen_core.rigs.look.hair import hair_thickness
 from emogen_core.rigs.look.presets import ALIASES, Preset, presets
+from emogen_core.rigs.look.seen import seen_layers
 from emogen_core.rigs.look.skin import mean_tone, paint_skin
 from emogen_core.rigs.look.zones import make_zones
 
@@ -83,15 +84,16 @@ def build_look(  # noqa: PLR0913 - the last three by keyword
             styles[name] = replace(styles[preset.name], bake=name)
             baked[name] = np.column_stack([_relaxed(bake(rig, name), atlas, geometry, lips), hair])
     on_skin = atlas.layers["skin"].surface[:, :1] == 1
+    layers, left = seen_layers(rig, atlas.layers)
     look = Look(
         name="emogen head",
         topology=topology_hash(rig),
-        layers=atlas.layers,
+        layers=layers,
         styles=styles,
         default=next(iter(ALIASES)) if next(iter(ALIASES)) in styles else chosen[0].name,
         textures={**skins, **_shared(canvas, chosen)},
-        bakes=baked,
-        wrinkle_masks=wrinkles.masks(place) * on_skin,
+        bakes={name: light[left["skin"]] for name, light in baked.items()},
+        wrinkle_masks=(wrinkles.masks(place) * on_skin)[left["skin"]],
         wrinkle_drivers=wrinkles.drivers(),
         edges=_edges(geometry),
     )
