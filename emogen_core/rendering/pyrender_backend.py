@@ -83,7 +83,8 @@ class PyrenderRenderer:
         pictures = np.empty((len(weights), settings.height, settings.width, 3), np.uint8)
         for picture, rows in zip(pictures, self.surface.faces(identity, weights), strict=True):
             self.upload(rows)
-            picture[:] = self.shoot(identity, settings)
+            self.paint(identity, settings)
+            picture[:] = self.read()
         return pictures
 
     def upload(self, rows: dict[str, NDArray[np.float32]]) -> None:
@@ -98,8 +99,8 @@ class PyrenderRenderer:
             GL.glBindBuffer(GL.GL_ARRAY_BUFFER, primitive._buffers[0])
             GL.glBufferSubData(GL.GL_ARRAY_BUFFER, 0, data.nbytes, data)
 
-    def shoot(self, identity: str, settings: RenderSettings) -> NDArray[np.uint8]:
-        """Return the picture (height, width, 3) of what was uploaded last, in the identity's style and camera."""
+    def paint(self, identity: str, settings: RenderSettings) -> None:
+        """Draw what was uploaded last, in the identity's style and camera."""
         if self._pass is None:
             raise RenderingError("this renderer is closed")
         self._context.make_current()
@@ -111,8 +112,13 @@ class PyrenderRenderer:
         pose[1:3, 3] = camera.height, camera.distance
         self._scene.set_pose(self._eye, pose)
         self._scene.bg_color = np.array([*settings.background, 255], np.float64) / 255
-        picture: NDArray[np.uint8] = self._pass.render(self._scene, RenderFlags.OFFSCREEN)
-        return picture
+        self._pass.render(self._scene, RenderFlags.NONE)
+
+    def read(self) -> NDArray[np.uint8]:
+        """Return the picture (height, width, 3) that was painted last."""
+        if self._pass is None:
+            raise RenderingError("this renderer is closed")
+        return self._pass.read()
 
     def camera(self, identity: str) -> Camera:
         """Return the camera that frames this identity."""
@@ -143,7 +149,7 @@ class PyrenderRenderer:
         return mesh
 
     def _frame(self, identity: str, camera: Camera) -> None:
-        """Draw only what shows of this identity's skin: a tenth of all pixels would be shoulders that have faded out."""
+        """Draw only what shows of this identity's skin: a tenth of the pixels would be shoulders that faded out."""
         primitive = next(mesh for mesh in self._meshes if mesh.name == "skin").primitives[0]
         if identity not in self._framed:
             self._framed[identity] = self.surface.framed_skin(identity, camera)
@@ -186,7 +192,7 @@ class _Pass(_PyrenderRenderer):
         """Take what the next faces share: view, colours of the head, size and background."""
         self._width, self._height = settings.width, settings.height
         self.viewport_width, self.viewport_height = (_SUPERSAMPLING * n for n in (settings.width, settings.height))
-        # Blending between mipmaps costs too much, and even choosing one costs a tenth where texels are magnified anyway.
+        # Blending between mipmaps costs too much; where texels are magnified, even choosing one is a waste.
         large = self.viewport_height >= _MAGNIFIED
         self._reduced = GL.GL_LINEAR if large else GL.GL_LINEAR_MIPMAP_NEAREST
         self._tones = {"skin": np.array(style.tone), "eyes": np.ones(3), "lashes": np.array(style.lash)}
@@ -251,8 +257,8 @@ class _Pass(_PyrenderRenderer):
         GL.glDepthMask(GL.GL_TRUE)
         GL.glDepthFunc(GL.GL_LESS)
 
-    def _read_main_framebuffer(self, scene: Any, flags: int) -> NDArray[np.uint8]:
-        """Average the picture down on the card and read it, colour only."""
+    def read(self) -> NDArray[np.uint8]:
+        """Average the picture down on the card and return it, colour only."""
         width, height = self._width, self._height
         small = self._frame(width, height)
         GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self._frame(self.viewport_width, self.viewport_height))

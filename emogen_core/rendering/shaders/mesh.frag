@@ -51,7 +51,7 @@ void main() {
     colour = vec4(mix(developed(c), background, extra.y), 1.0);
 #else
     // What a fold's slope adds to the light or takes from it; in its shadow red light remains longest.
-    float relief = (texel.a - 0.5) * 2.0 * extra.x;
+    float relief = (texel.a - 128.0 / 255.0) * 2.0 * extra.x;
     // Pores, hair and brows are darker than skin and shine less: that breaks the highlight up.
     float rough = clamp(breakup * texel.g - 2.2, 0.10, 1.6);
     vec3 c = albedo * diffuse * (1.0 + relief * vec3(0.80, 1.0, 1.06)) + shine * rough * max(1.0 + 1.8 * relief, 0.0);

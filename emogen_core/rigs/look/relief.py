@@ -33,6 +33,9 @@ if TYPE_CHECKING:
     from emogen_core.rigs.look.canvas import Canvas
     from emogen_core.rigs.look.wrinkles import Group, Line
 
+    # The (n, 2) path of a line, and its depth and width along it, decimetres.
+    _Stroke = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
+
 # Key, fill and sky as the shaders have them: direction and strength.
 _LAMPS = ((np.array([-0.62, 0.62, 1.0]), 1.0), (np.array([1.0, 0.12, 0.75]), 0.25), (np.array([0.0, 1.0, 0.0]), 0.35))
 _SURROUND = 0.38
@@ -58,7 +61,7 @@ def paint_relief(canvas: Canvas, groups: Iterable[Group]) -> NDArray[np.uint8]:
     light = _light(canvas, height) - core
     # What lies under a soft ceiling never turns black or white.
     light = light / (1 + np.abs(light) ** 3) ** (1 / 3)
-    return np.asarray(np.round(127.5 + 127.5 * canvas.to_image(light.astype(np.float32))).clip(0, 255), np.uint8)
+    return np.asarray(np.round(128 + 127.5 * canvas.to_image(light.astype(np.float32))).clip(0, 255), np.uint8)
 
 
 class _Skin:
@@ -76,6 +79,15 @@ class _Skin:
         depth = self._depth[nearest].mean(1)
         return np.column_stack([path, gaussian_filter1d(depth, smooth) if smooth else depth])
 
+    def beside(
+        self, places: NDArray[np.float64], reach: float
+    ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.intp]]:
+        """Return the texels within reach of (n, 3) places, their distance to the nearest and which that is."""
+        near = np.flatnonzero(((self.place > places.min(0) - reach) & (self.place < places.max(0) + reach)).all(1))
+        distance, sample = cKDTree(places).query(self.place[near], distance_upper_bound=reach)
+        found = np.isfinite(distance)
+        return self.at[near[found]], np.asarray(distance)[found], np.asarray(sample)[found]
+
 
 def _sides(line: Line, side: int) -> list[Line]:
     if side:
@@ -85,21 +97,15 @@ def _sides(line: Line, side: int) -> list[Line]:
 
 
 def _press(skin: _Skin, line: Line, rng: np.random.Generator, into: tuple[NDArray[np.float32], ...]) -> None:
-    """Add a line, and finer ones beside it."""
+    """Add a line, and finer ones beside it, to the height and to what is lost in the cores of grooves."""
     height, core = into
-    path, strength, width = _drawn(line, rng)
-    strands = [(path, strength, width)]
-    strands += [_strand(path, line, rng) for _ in range(line.strands)]
-    for way, depth, wide in strands:
-        places = skin.lifted(way)
-        low, high = places.min(0) - _REACH * wide.max(), places.max(0) + _REACH * wide.max()
-        near = np.flatnonzero(((skin.place > low) & (skin.place < high)).all(1))
-        distance, sample = cKDTree(places).query(skin.place[near], distance_upper_bound=_REACH * wide.max())
-        found = np.isfinite(distance)
-        rows, d, k = skin.at[near[found]], distance[found], sample[found]
-        height[rows] += _profile(d, depth[k], wide[k])
-        steep = np.maximum(depth[k], 0) / wide[k] * np.minimum(1, _FINE / wide[k])
-        core[rows] += _CORE_DARK * steep * np.exp(-((d / (_CORE_WIDTH * wide[k])) ** 2))
+    stroke = _drawn(line, rng)
+    for path, depth, width in (stroke, *(_strand(stroke[0], line, rng) for _ in range(line.strands))):
+        rows, distance, sample = skin.beside(skin.lifted(path), _REACH * float(width.max()))
+        deep, wide = depth[sample], width[sample]
+        height[rows] += _profile(distance, deep, wide)
+        steep = np.maximum(deep, 0) / wide * np.minimum(1, _FINE / wide)
+        core[rows] += _CORE_DARK * steep * np.exp(-((distance / (_CORE_WIDTH * wide)) ** 2))
 
 
 def _profile(d: NDArray[np.float64], depth: NDArray[np.float64], width: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -110,7 +116,7 @@ def _profile(d: NDArray[np.float64], depth: NDArray[np.float64], width: NDArray[
     return shape
 
 
-def _drawn(line: Line, rng: np.random.Generator) -> tuple[NDArray[np.float64], ...]:
+def _drawn(line: Line, rng: np.random.Generator) -> _Stroke:
     """Return the (n, 2) path of a line, its depth and its width along it, decimetres."""
     points = np.array(line.points)
     way = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
@@ -121,10 +127,11 @@ def _drawn(line: Line, rng: np.random.Generator) -> tuple[NDArray[np.float64], .
     uneven = np.clip(1 + 0.40 * _noise(rng, 0.14 / way[-1]), 0.35, 1.5)
     gaps = step(_noise(rng, 0.08 / way[-1]), -1.6, -0.8)
     depth = line.depth * taper * uneven * (1 - line.broken * (1 - gaps))
-    return path, depth, line.width * np.clip(1 + 0.22 * _noise(rng, 0.15 / way[-1]), 0.6, 1.5) * (0.55 + 0.45 * taper)
+    width = line.width * np.clip(1 + 0.22 * _noise(rng, 0.15 / way[-1]), 0.6, 1.5) * (0.55 + 0.45 * taper)
+    return path, depth, width
 
 
-def _strand(path: NDArray[np.float64], line: Line, rng: np.random.Generator) -> tuple[NDArray[np.float64], ...]:
+def _strand(path: NDArray[np.float64], line: Line, rng: np.random.Generator) -> _Stroke:
     """Return a short fine line that runs beside a part of another."""
     reach = int(rng.uniform(0.22, 0.5) * len(path))
     first = int(rng.uniform(0, len(path) - reach))
@@ -139,7 +146,8 @@ def _strand(path: NDArray[np.float64], line: Line, rng: np.random.Generator) -> 
 
 
 def _wander(rng: np.random.Generator, *waves: tuple[float, float], length: float) -> NDArray[np.float64]:
-    return np.sum([a * np.stack([_noise(rng, w / length) for _ in "xy"], 1) for w, a in waves], axis=0) * 0.5
+    bends = [a * np.stack([_noise(rng, w / length) for _ in "xy"], 1) for w, a in waves]
+    return np.asarray(np.sum(bends, axis=0) / 2, np.float64)
 
 
 def _noise(rng: np.random.Generator, share: float) -> NDArray[np.float64]:

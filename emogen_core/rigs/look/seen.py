@@ -1,4 +1,4 @@
-"""Which triangles a portrait can ever show: the others are left out of the look, which saves a fifth of the drawing."""
+"""Which triangles a portrait can ever show: the others are left out of the look, and no picture changes."""
 
 from __future__ import annotations
 
@@ -22,14 +22,12 @@ _TURNED_AWAY = -0.35
 _ONE_SIDED = ("skin", "eyes")
 
 
-def seen_layers(
-    rig: Rig, layers: Mapping[str, Layer]
-) -> tuple[dict[str, Layer], dict[str, NDArray[np.intp]]]:
+def seen_layers(rig: Rig, layers: Mapping[str, Layer]) -> tuple[dict[str, Layer], dict[str, NDArray[np.int32]]]:
     """Return the layers without what no portrait shows, and layer -> (r,) which render vertices are left.
 
     A triangle stays when it nearly faces the camera on any identity, neutral or with one shape at 1.
     """
-    best = {name: np.full(len(layers[name].triangles), -1, np.float32) for name in _ONE_SIDED}
+    best = {name: np.full(len(layers[name].triangles), -1, np.float32) for name in _ONE_SIDED if name in layers}
     for mesh in _meshes(rig):
         for name, facing in best.items():
             corners = mesh[layers[name].source[layers[name].triangles]]
