@@ -26,6 +26,11 @@ Faces = Annotated[int, typer.Option(min=1, help="How many random faces of every 
 Identity = Annotated[list[str] | None, typer.Option(help="A head to judge; may be repeated. All of them if left out.")]
 Workers = Annotated[int, typer.Option(min=1, help="Processes that work on the heads, one core each.")]
 Seed = Annotated[int, typer.Option(help="The same seed gives the same faces.")]
+Head = Annotated[str, typer.Option("--identity", help="Who is drawn; without it the rig's first identity.")]
+Genes = Annotated[list[str] | None, typer.Option("--gene", help="A gene and its value, mouthSmile=1; may be repeated.")]
+Emotion = Annotated[str, typer.Option(help="All genes of this emotion set at 1, before --gene.")]
+Size = Annotated[int, typer.Option(min=16, max=4096, help="Width and height in pixels.")]
+Png = Annotated[Path, typer.Option("--out", help="PNG file to write.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 
 
@@ -53,6 +58,20 @@ def sheet(out: Sheets = Path("sheets"), only: Only = None) -> None:
     with plainly():
         for path in import_module("emogen_core.rigs.sheets").make_sheets(made_folder(out), only=only or ()):
             typer.echo(str(path))
+
+
+@app.command("draw")
+def draw(
+    out: Png,
+    identity: Head = "",
+    gene: Genes = None,
+    emotion: Emotion = "",
+    size: Size = 1000,
+) -> None:
+    """Draw one face, corrected as in a study, as large as you like."""
+    with plainly():
+        out.write_bytes(import_module("emogen_core.rigs.close_up").close_up(identity, gene or (), emotion, size))
+    typer.echo(str(out))
 
 
 @app.command("check")

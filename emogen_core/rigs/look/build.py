@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from PIL import Image
+from scipy.ndimage import maximum_filter1d
 from scipy.spatial import cKDTree
 
 from emogen_core.rendering.look import HAIR_DEPTH, Layer, Look, Style, save_look, topology_hash
@@ -18,6 +19,7 @@ from emogen_core.rigs.look.bake import bake
 from emogen_core.rigs.look.canvas import make_canvas, sample_mask, step
 from emogen_core.rigs.look.hair import hair_thickness
 from emogen_core.rigs.look.presets import ALIASES, Preset, presets
+from emogen_core.rigs.look.seen import seen_layers
 from emogen_core.rigs.look.skin import mean_tone, paint_skin
 from emogen_core.rigs.look.zones import make_zones
 
@@ -35,6 +37,8 @@ if TYPE_CHECKING:
 
 PAINTED, SHIPPED = 2048, 1024
 _QUALITY = 90
+# How far a lid's margin may lie from its inner rim: sideways, up and down, and forward, millimetres.
+_COLUMN, _LEVEL, _MARGIN = 1.2, 1.3, 5.0
 
 
 def build_look(  # noqa: PLR0913 - the last three by keyword
@@ -83,17 +87,18 @@ def build_look(  # noqa: PLR0913 - the last three by keyword
             styles[name] = replace(styles[preset.name], bake=name)
             baked[name] = np.column_stack([_relaxed(bake(rig, name), atlas, geometry, lips), hair])
     on_skin = atlas.layers["skin"].surface[:, :1] == 1
+    layers, left = seen_layers(rig, atlas.layers)
     look = Look(
         name="emogen head",
         topology=topology_hash(rig),
-        layers=atlas.layers,
+        layers=layers,
         styles=styles,
         default=next(iter(ALIASES)) if next(iter(ALIASES)) in styles else chosen[0].name,
         textures={**skins, **_shared(canvas, chosen)},
-        bakes=baked,
-        wrinkle_masks=wrinkles.masks(place) * on_skin,
+        bakes={name: light[left["skin"]] for name, light in baked.items()},
+        wrinkle_masks=(wrinkles.masks(place) * on_skin)[left["skin"]],
         wrinkle_drivers=wrinkles.drivers(),
-        edges=_edges(geometry),
+        edges=_edges(geometry, rig),
     )
     return replace(look, hash=save_look(path, look))
 
@@ -112,7 +117,7 @@ def _style(preset: Preset, tone: tuple[float, float, float]) -> Style:
         bake=preset.name,
         tone=tone,
         lash=(red, green, blue),
-        wrinkles=1.0 if preset.old else 0.5,
+        wrinkles=1.0 if preset.old else 0.62,
         lines=0.30 if preset.old else 0.0,
         shine=0.80 if preset.old else 1.0,
     )
@@ -205,17 +210,37 @@ def _canvas_occlusion(rig: Rig, atlas: Atlas, canvas: Canvas) -> NDArray[np.floa
     return np.asarray((light[nearest] * weight).sum(1) / weight.sum(1), np.float32)
 
 
-def _edges(geometry: HeadGeometry) -> dict[str, NDArray[np.int32]]:
-    """Return the edges of lids and lips, by x: vertices that the skin shares with what lies behind it."""
+def _edges(geometry: HeadGeometry, rig: Rig) -> dict[str, NDArray[np.int32]]:
+    """Return the edges of lids and lips, by x: lips where skin becomes mouth, lids where they end towards the light."""
     lids, lips = (
         np.intersect1d(geometry.part_vertices("skin"), geometry.part_vertices(part)) for part in ("sockets", "mouth")
     )
     x = geometry.positions[:, 0]
     return {
-        **_split(geometry, "left", lids[x[lids] > 0]),
-        **_split(geometry, "right", lids[x[lids] < 0]),
+        **_margins(geometry, rig, _split(geometry, "left", lids[x[lids] > 0])),
+        **_margins(geometry, rig, _split(geometry, "right", lids[x[lids] < 0])),
         **_split(geometry, "mouth", lips),
     }
+
+
+def _margins(geometry: HeadGeometry, rig: Rig, rims: dict[str, NDArray[np.int32]]) -> dict[str, NDArray[np.int32]]:
+    """Return for each inner rim of a lid, which rests on the eyeball, the margin in front of it, which moves."""
+    skin, place = geometry.part_vertices("skin"), geometry.positions
+    closing = sum(np.abs(rig.offsets[rig.shape_names.index(f"lidsClose.{side}")]) for side in "LR")[:, 1]
+    margins = {}
+    for name, rim in rims.items():
+        upper = name.endswith("upper")
+        chosen = []
+        for vertex in rim:
+            away = place[skin] - place[vertex]
+            near = skin[(np.abs(away[:, 0]) < _COLUMN) & (np.abs(away[:, 1]) < _LEVEL) & (np.abs(away[:, 2]) < _MARGIN)]
+            chosen.append(near[(closing if upper else place[:, 2])[near].argmax()])
+        found = np.unique(chosen)
+        found = found[np.argsort(place[found, 0], kind="stable")]
+        # Where the mesh has no vertex on the margin, something behind it was found: its neighbours move more.
+        moved = closing[found]
+        margins[name] = found[2 * moved >= maximum_filter1d(moved, 3) * upper].astype(np.int32)
+    return margins
 
 
 def _split(geometry: HeadGeometry, name: str, rim: NDArray[np.intp]) -> dict[str, NDArray[np.int32]]:
