@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from emogen_core.rigs.fitting import Head
-    from emogen_core.rigs.head_mesh import HeadGeometry
+    from emogen_core.rigs.topology import Topology
 
 Method = Literal["max", "two", "cancel", "close", "undo"]
 
@@ -92,7 +92,7 @@ class Deriver:
         shut: (N, 3) offsets that shut the lips at `jawOpen` 1 (the unit `mouthClose`).
     """
 
-    def __init__(self, geometry: HeadGeometry, shut: NDArray[np.float64]) -> None:
+    def __init__(self, geometry: Topology, shut: NDArray[np.float64]) -> None:
         self.geometry = geometry
         self._soft = geometry.part_vertices("skin", "mouth", "sockets", "lashes")
         self._flesh = geometry.triangles[: geometry.parts["sockets"][1]]
