@@ -31,8 +31,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from emogen_core.rigs.fitting import Head
-    from emogen_core.rigs.head_mesh import HeadGeometry
     from emogen_core.rigs.saturation import Power
+    from emogen_core.rigs.topology import Topology
 
     Mesh = NDArray[np.float64]
     Meshes = Mapping[str, Mesh]
@@ -109,7 +109,7 @@ class Deriver:
         shut: (N, 3) offsets that shut the lips at `jawOpen` 1 (the unit `mouthClose`).
     """
 
-    geometry: HeadGeometry
+    geometry: Topology
     shut: Mesh
 
     @cached_property

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from emogen_core.rigs.fitting import Head
-    from emogen_core.rigs.head_mesh import HeadGeometry
+    from emogen_core.rigs.topology import Topology
 
     Mesh = NDArray[np.float64]
     Meshes = dict[str, Mesh]
@@ -46,7 +46,7 @@ WORTH = 4
 class Mender:
     """Mends offsets of the flesh of a head mesh."""
 
-    geometry: HeadGeometry
+    geometry: Topology
 
     @cached_property
     def flesh(self) -> NDArray[np.int32]:
