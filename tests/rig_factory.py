@@ -23,7 +23,7 @@ def small_rig(seed: int = 7, genes: int = 8) -> Rig:
         for i, (name, pair) in enumerate(zip(names, pairs, strict=True))
     )  # fmt: skip
     sets = {
-        word: EmotionSet(tuple(names[i : i + 4]), (), "invented")
+        word: EmotionSet(tuple(names[i : i + 4]), (1.0, 0.8, 0.6, 0.4), (), "invented")
         for i, word in enumerate(("happy", "sad", "angry", "fearful"))
     }
     shapes = len(core) + len(combinations) + 1

@@ -8,16 +8,18 @@ import numpy as np
 
 from emogen_core.face.rig import Adjustment, Rig
 from emogen_core.face.rig_file import save_rig
+from emogen_core.rigs.candidates import Deriver, moves_lids
 from emogen_core.rigs.canvas import make_canvas, unit
 from emogen_core.rigs.collision_bake import settle_neutrals
 from emogen_core.rigs.collision_shapes import COLLISION_SHAPES, collision_offsets, mouth_regions
-from emogen_core.rigs.combinations import Deriver, choose_pairs
+from emogen_core.rigs.combinations import choose_pairs
 from emogen_core.rigs.emotion_sets import EMOTION_SETS
 from emogen_core.rigs.fitting import LID_GENES, Head, fitted_lids, gene_offsets, sealed_shapes
 from emogen_core.rigs.gene_table import RECIPES
 from emogen_core.rigs.head_mesh import build_geometry
 from emogen_core.rigs.identities import IDENTITIES, blend_vertices, fit
 from emogen_core.rigs.lips import seal_lips
+from emogen_core.rigs.mending import mended_shapes
 from emogen_core.rigs.source import open_source
 from emogen_core.rigs.units import core_shapes
 
@@ -63,10 +65,11 @@ def build_rig(source: Path, out_path: Path) -> Rig:
     heads = make_heads(data, geometry, low)
     default = heads[DEFAULT]
     raw = sealed_shapes(geometry, low, default.neutral, core_shapes(data, geometry, canvas))
-    core = fitted_lids(geometry, default, raw)
     deriver = Deriver(geometry, _shut(data, geometry, canvas))
-    pairs = choose_pairs(deriver, default, gene_offsets(core), _inactive())
-    combined = {pair.combination.name: deriver.derive(pair, default, gene_offsets(core)) for pair in pairs}
+    core = mended_shapes(deriver.mender, default, fitted_lids(geometry, default, raw))
+    genes = gene_offsets(core)
+    pairs = choose_pairs(deriver, default, genes, _inactive())
+    combined = {pair.combination.name: deriver.derive(pair, default, genes) for pair in pairs}
     collision = collision_offsets(geometry, low, default.neutral)
     offsets = np.concatenate([_stack(core), _stack(combined), collision])
     rig = Rig(
@@ -82,7 +85,7 @@ def build_rig(source: Path, out_path: Path) -> Rig:
         parts=geometry.parts,
         regions=mouth_regions(geometry, low, default.neutral),
         mirror=geometry.mirror.astype(np.int32),
-        adjustments=_adjustments(deriver, pairs, heads, raw, core | combined),
+        adjustments=_adjustments(deriver, pairs, heads, _before_fitting(raw, core), core | combined),
     )
     return save_rig(settle_neutrals(rig), out_path)
 
@@ -115,18 +118,24 @@ def _adjustments(
 ) -> dict[str, Adjustment]:
     """Return for every head but the default one how the shapes that move its lids differ, correctives included."""
     names = tuple(worn_by_default)
-    found = {}
+    found, mender = {}, deriver.mender
     for identity, head in heads.items():
         if identity == DEFAULT:
             continue
-        worn = fitted_lids(deriver.geometry, head, raw)
+        worn = mended_shapes(mender, head, fitted_lids(mender.geometry, head, raw))
         genes = gene_offsets(worn)
-        worn |= {p.combination.name: deriver.derive(p, head, genes) for p in pairs if set(p.parents) & set(LID_GENES)}
+        worn |= {p.combination.name: deriver.derive(p, head, genes) for p in pairs if moves_lids(p.parents)}
         changed = {name: offsets - worn_by_default[name] for name, offsets in worn.items()}
         changed = {name: change for name, change in changed.items() if np.abs(change).max() > _SEEN}
         index = np.array([names.index(name) for name in changed], np.intp)
         found[identity] = Adjustment(index, _stack(changed).astype(np.float32))
     return found
+
+
+def _before_fitting(raw: Meshes, core: Meshes) -> Meshes:
+    """Return what other heads start from: the default's mended shapes, but lids as they were before any fitting."""
+    lids = {member for recipe in RECIPES if recipe.name in LID_GENES for member in recipe.members}
+    return {name: raw[name] if name in lids else core[name] for name in core}
 
 
 def _stack(meshes: Meshes) -> NDArray[np.float64]:

@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 RANDOM_FACES = 20
 # As the search's random faces: so many genes of the enabled ones, each uniform in [0, 1].
 RANDOM_GENES = 6
-EMOTION_STRENGTH = 0.65
 _SMALL, _LARGE = RenderSettings(220, 264), RenderSettings(320, 384)
 _CAPTION = 18
 _QUALITY = 84
@@ -39,8 +38,8 @@ def make_sheets(out_dir: Path, backend: str = "pyrender") -> list[Path]:
         backend: which renderer draws.
 
     Returns:
-        The files: ``genes.jpg`` (every gene at 1 on two heads), ``identities.jpg``, ``emotions.jpg`` (the emotion sets
-        on every head) and ``random.jpg``.
+        The files: ``genes.jpg`` (every gene at 1 on two heads), ``identities.jpg``, ``emotions.jpg`` (the emotion
+        sets at full strength on every head) and ``random.jpg``.
 
     Raises:
         MissingGLError: ``pyrender`` on a machine without OpenGL.
@@ -61,13 +60,6 @@ def make_sheets(out_dir: Path, backend: str = "pyrender") -> list[Path]:
     return paths
 
 
-def emotion_genes(rig: Rig, emotion: str, strength: float = EMOTION_STRENGTH) -> NDArray[np.float64]:
-    """Return the (G,) genome with all genes of an emotion set at one strength."""
-    genes = np.zeros(len(rig.genes))
-    genes[rig.gene_indices(rig.emotion_sets[emotion].genes)] = strength
-    return genes
-
-
 def _genes(rig: Rig) -> Iterator[Tile]:
     for identity in ("female", "male"):
         yield identity, "neutral", np.zeros(len(rig.genes))
@@ -84,7 +76,7 @@ def _emotions(rig: Rig) -> Iterator[Tile]:
     for identity in rig.identities:
         yield identity, identity, np.zeros(len(rig.genes))
         for emotion in rig.emotion_sets:
-            yield identity, emotion, emotion_genes(rig, emotion)
+            yield identity, emotion, rig.emotion_genes(emotion)
 
 
 def _random(rig: Rig) -> Iterator[Tile]:

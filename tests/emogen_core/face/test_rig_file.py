@@ -82,7 +82,9 @@ def broken():
     yield "members", replace(rig, genes=(replace(genes[0], members=("nothing",)), *genes[1:]))
     yield "members", replace(rig, genes=(replace(genes[0], members=genes[1].members), *genes[1:]))
     yield "parents", replace(rig, combinations=(Combination("c01", ("g0", "g1L")), rig.combinations[1]))
-    yield "happy", replace(rig, emotion_sets={"happy": EmotionSet(("grin",), (), "nowhere")})
+    yield "happy", replace(rig, emotion_sets={"happy": EmotionSet(("grin",), (1.0,), (), "nowhere")})
+    for strengths in ((), (1.0, 1.0), (0.0,), (1.01,), (float("nan"),)):
+        yield "strengths", replace(rig, emotion_sets={"happy": EmotionSet(("g0",), strengths, (), "nowhere")})
     yield "adjust", replace(rig, adjustments={"nobody": rig.adjustments["male"]})
     yield (
         "adjust",
@@ -95,6 +97,14 @@ def test_a_rig_that_contradicts_itself_is_not_saved(tmp_path, said, rig):
     with pytest.raises(RigFileError, match=said):
         save_rig(rig, tmp_path / "a.rig")
     assert not (tmp_path / "a.rig").exists()
+
+
+def test_a_file_of_the_version_without_strengths_says_so(tmp_path):
+    save_rig(full_rig(), tmp_path / "a.rig")
+    document, arrays, _ = read_container(tmp_path / "a.rig", KIND, VERSION)
+    write_container(tmp_path / "a.rig", KIND, 1, document, arrays)
+    with pytest.raises(RigFileError, match="expected version 2, got 1"):
+        load_rig(tmp_path / "a.rig")
 
 
 def rewritten(tmp_path, change):

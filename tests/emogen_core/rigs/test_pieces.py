@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from emogen_core.rigs.canvas import smoothstep
-from emogen_core.rigs.combinations import saturation
+from emogen_core.rigs.saturation import saturation
 from emogen_core.rigs.eyeballs import IRIS_DEGREES, RADIUS, RINGS, SEGMENTS, eyeball, gaze_offsets, pupil_offsets
 from emogen_core.rigs.gene_table import RECIPES
 from emogen_core.rigs.grids import grid_of, grid_triangles

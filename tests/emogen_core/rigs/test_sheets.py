@@ -5,7 +5,7 @@ import pytest
 from PIL import Image
 
 from emogen_core.face.bundled import load_bundled_rig
-from emogen_core.rigs.sheets import emotion_genes, make_sheets
+from emogen_core.rigs.sheets import make_sheets
 
 
 @pytest.mark.gl
@@ -20,10 +20,3 @@ def test_all_sheets_are_drawn(tmp_path):
         assert pixels.std() > 20
         width, height = (220, 282) if path.stem in {"genes", "emotions"} else (320, 402)
         assert pixels.shape[0] * pixels.shape[1] >= tiles[path.stem] * width * height
-
-
-def test_an_emotion_sets_its_genes_and_no_others():
-    rig = load_bundled_rig()
-    genes = emotion_genes(rig, "happy", 0.5)
-    assert genes[rig.gene_names.index("mouthSmile")] == 0.5
-    assert (genes > 0).sum() == len(rig.emotion_sets["happy"].genes)
