@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from emogen_core.rigs.candidates import Pair
     from emogen_core.rigs.canvas import Canvas
-    from emogen_core.rigs.combinations import Pair
     from emogen_core.rigs.head_mesh import HeadGeometry
     from emogen_core.rigs.source import Source
 

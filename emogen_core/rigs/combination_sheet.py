@@ -67,13 +67,17 @@ def combination_sheet(
 
 def _chosen(rig: Rig, identity: str, seed: int) -> tuple[list[str], NDArray[np.float32], NDArray[np.float32]]:
     """Return captions and weights (n, K) without and with correctives: the strongest pairs, then random faces."""
-    pairs = [combination.parents for combination in rig.combinations if len(combination.parents) == 2]
+    pairs: list[tuple[str, ...]] = [
+        combination.parents for combination in rig.combinations if len(combination.parents) == 2
+    ]
     genes = np.concatenate([_at_one(rig, pairs), random_genes(rig, SEARCHED, seed)])
     after = shape_weights(rig, genes)
     before = after.copy()
     before[:, len(rig.core_shapes) :] = 0
     gauge = Gauge(rig.neutral(identity).astype(np.float64), flesh(rig))
-    broken = np.array([[_broken(gauge, rig, identity, row) for row in both] for both in zip(before, after, strict=True)])
+    broken = np.array(
+        [[_broken(gauge, rig, identity, row) for row in both] for both in zip(before, after, strict=True)]
+    )
     gain = broken[:, 0] - broken[:, 1]
     best_pairs = np.argsort(-gain[: len(pairs)], kind="stable")[:PAIRS]
     best_faces = len(pairs) + np.argsort(-gain[len(pairs) :], kind="stable")[:FACES]

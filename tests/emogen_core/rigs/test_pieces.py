@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from emogen_core.rigs.canvas import smoothstep
-from emogen_core.rigs.saturation import saturation
 from emogen_core.rigs.eyeballs import IRIS_DEGREES, RADIUS, RINGS, SEGMENTS, eyeball, gaze_offsets, pupil_offsets
 from emogen_core.rigs.gene_table import RECIPES
 from emogen_core.rigs.grids import grid_of, grid_triangles
 from emogen_core.rigs.heights import highest
 from emogen_core.rigs.identities import IDENTITIES, fit_sphere
 from emogen_core.rigs.quality import Gauge
+from emogen_core.rigs.saturation import saturation
 
 RNG = np.random.default_rng(2)
 
