@@ -14,8 +14,8 @@ import numpy as np
 
 from emogen_core.correctives.collision.regions import has_regions, judge_anchors, target_faces
 from emogen_core.face.rig import Adjustment
-from emogen_core.rigs.collision_bake import settled
 from emogen_core.rigs.candidates import Deriver, Pair
+from emogen_core.rigs.collision_bake import settled
 from emogen_core.rigs.fitting import Head, cleared_neutral, fitted_lids, gene_offsets, kept_shut
 from emogen_core.rigs.lips import close_slits, seal_lips, visible_teeth
 from emogen_core.rigs.mending import mended_shapes

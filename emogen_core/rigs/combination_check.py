@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from emogen_core.face.rig import Rig
 
 BATCH = 10
-# Piercing edges take a quarter of a second a face: they are counted on this many.
-PIERCED_FACES = 60
+# Piercing edges take a third of a second a face: they are counted on this many.
+PIERCED_FACES = 20
 
 _FLESH = ("skin", "mouth", "sockets")
 _FIELDS = ("flips", "folds", "stretched", "piercing")

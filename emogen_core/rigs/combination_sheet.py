@@ -51,7 +51,9 @@ def combination_sheet(renderer: Renderer, rig: Rig, identity: str | None = None,
 
 def _chosen(rig: Rig, identity: str, seed: int) -> tuple[list[str], NDArray[np.float32], NDArray[np.float32]]:
     """Return captions and weights (n, K) without and with correctives: the strongest pairs, then random faces."""
-    pairs = [combination.parents for combination in rig.combinations if len(combination.parents) == 2]
+    pairs: list[tuple[str, ...]] = [
+        combination.parents for combination in rig.combinations if len(combination.parents) == 2
+    ]
     genes = np.concatenate([_at_one(rig, pairs), random_genes(rig, SEARCHED, seed)])
     after = shape_weights(rig, genes)
     before = after.copy()

@@ -42,7 +42,7 @@ OVERLAP_MILLIMETRES = 0.3
 # Middles of four equal parts of [0, 1], but the lowest: hardly anything breaks there.
 NODES = (0.375, 0.625, 0.875)
 # Pairs that break less than this at the highest of these are not worth a shape.
-SMALLEST_DAMAGE = 6
+SMALLEST_DAMAGE = 8
 
 
 def choose_pairs(deriver: Deriver, head: Head, genes: Meshes, skipped: frozenset[str]) -> list[Pair]:

@@ -1,7 +1,7 @@
 """Which genes build which emotion, and how strongly, from the FACS literature.
 
-The strengths are ours: Ekman and Friesen name action units, not millimetres. They were set by eye so that the set at full
-strength shows the prototype on every identity. Prototypes are hypotheses about faces, not ground truth (Barrett et
+The strengths are ours: Ekman and Friesen name action units, not millimetres. They were set by eye so that the set at
+full strength shows the prototype on every identity. Prototypes are hypotheses about faces, not ground truth (Barrett et
 al. 2019, doi:10.1177/1529100619832930).
 """
 

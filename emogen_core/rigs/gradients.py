@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from emogen_core.rigs.saturation import Power
+
     Mesh = NDArray[np.float64]
     Gradients = NDArray[np.float64]
     Method = Literal["composed", "gradient two", "gradient max"]
@@ -60,7 +62,7 @@ class GradientField:
     @cached_property
     def _frames(self) -> Gradients:
         """(T, 3, 3) inverse of the columns edge, edge, unit normal at rest."""
-        return np.linalg.inv(self._sides(self.neutral, slice(None)))
+        return np.asarray(np.linalg.inv(self._sides(self.neutral, slice(None))), np.float64)
 
     @cached_property
     def _areas(self) -> NDArray[np.float64]:
@@ -106,12 +108,13 @@ def _composed(a: Gradients, b: Gradients) -> Gradients:
 def _logarithmic(a: Gradients, b: Gradients, method: Method) -> Gradients:
     """Return the gradients whose rotation vectors and log stretches are the saturated sums of both."""
     (turn_a, stretch_a), (turn_b, stretch_b) = _logarithms(a), _logarithms(b)
-    power = "two" if method == "gradient two" else "max"
+    power: Power = "two" if method == "gradient two" else "max"
     turn = saturated(turn_a, turn_b, power)
     stretch = saturated(stretch_a.reshape(-1, 9), stretch_b.reshape(-1, 9), power).reshape(-1, 3, 3)
     values, axes = np.linalg.eigh(stretch)
     stretched = (axes * np.exp(values)[:, None]) @ axes.transpose(0, 2, 1)
-    return Rotation.from_rotvec(turn).as_matrix() @ stretched
+    joined: Gradients = Rotation.from_rotvec(turn).as_matrix() @ stretched
+    return joined
 
 
 def _logarithms(gradients: Gradients) -> tuple[NDArray[np.float64], Gradients]:

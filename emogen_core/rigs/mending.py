@@ -3,7 +3,7 @@
 Half of all flipped triangles of random faces came from single units, and which of their triangles break depends on the
 head. So every gene is mended at weight 1 on every head: around triangles that stretch or turn too far, offsets are
 averaged with their neighbours', again and again, and the least damaged state is kept. The rims of the lids stay where
-they are: closing must close.
+they are.
 """
 
 from __future__ import annotations
@@ -38,6 +38,8 @@ PATIENCE = 6
 _STILL = 0.01
 # Vertices so near to x = 0, millimetres, are in the middle.
 _MIDDLE = 1e-6
+# Closing lids must meet: what relaxes their skin lifts it off the eye (`lids.py` fits this gene).
+NOT_MENDED = "lidsClose"
 # Less damage than this is not worth another shape.
 WORTH = 4
 
@@ -99,18 +101,18 @@ class Mender:
 
 
 def mended_shapes(mender: Mender, head: Head, core: Meshes) -> Meshes:
-    """Return the core shapes with every gene mended at weight 1 on a head, lids still outside its eyeballs.
+    """Return the core shapes with every gene but `NOT_MENDED` mended at weight 1 on a head, lids outside its eyeballs.
 
     A change goes to the member of its side, in the middle to both alike.
     """
     shapes, genes = dict(core), gene_offsets(core)
     left = np.where(np.abs(head.neutral[:, :1]) < _MIDDLE, 0.5, head.neutral[:, :1] > 0)
-    for recipe in RECIPES:
+    for recipe in (recipe for recipe in RECIPES if recipe.name != NOT_MENDED):
         offsets = genes[recipe.name]
         change = mender.mended(head.neutral, offsets) - offsets
         if recipe.name in LID_GENES:
             change = cleared(mender.geometry, head, offsets + change) - offsets
-        shares = (left, 1 - left) if len(recipe.members) == 2 else (1,)
+        shares = [left, 1 - left] if len(recipe.members) == 2 else [np.ones_like(left)]
         for member, share in zip(recipe.members, shares, strict=True):
             shapes[member] = core[member] + share * change
     return shapes

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     Points = NDArray[np.float64]
     Indices = NDArray[np.int32]
 
-CELL = 3.0
+CELL = 5.0
 # Cells are numbered from one key; a mesh reaches no further than this many of them in any direction.
 _REACH = 2**20
 
@@ -52,9 +52,11 @@ def _sharing_a_cell(first: Points, second: Points) -> tuple[NDArray[np.intp], ND
     count = np.searchsorted(cell_b, cell_a, "right") - start
     a = np.repeat(owner_a, count)
     b = owner_b[np.repeat(start, count) + np.arange(len(a)) - np.repeat(np.cumsum(count) - count, count)]
-    low_a, high_a, low_b, high_b = first.min(1), first.max(1), second.min(1), second.max(1)
-    overlap = ((low_a[a] <= high_b[b]) & (low_b[b] <= high_a[a])).all(1)
-    pairs = np.unique(a[overlap] * len(second) + b[overlap])
+    low_a, high_a, low_b, high_b = (x.T.copy() for x in (first.min(1), first.max(1), second.min(1), second.max(1)))
+    for axis in range(3):
+        overlap = (low_a[axis][a] <= high_b[axis][b]) & (low_b[axis][b] <= high_a[axis][a])
+        a, b = a[overlap], b[overlap]
+    pairs = np.unique(a * len(second) + b)
     return pairs // len(second), pairs % len(second)
 
 

@@ -25,7 +25,7 @@ PIERCING_SHARE = 0.25
 
 @dataclass(frozen=True, slots=True)
 class Damage:
-    """Counts of one mesh: triangles turned over, sharp new folds, triangles stretched beyond the limit, piercing edges."""
+    """Counts of one mesh: triangles turned over, sharp folds, triangles stretched beyond the limit, piercing edges."""
 
     flips: int
     folds: int

@@ -72,7 +72,8 @@ def _pressed(source: Source, canvas: Canvas, offsets: Offsets) -> Offsets:
     corner = canvas.spot((27, -64), (8, 6)) * (canvas.points[:, 2] > 0)
     share = (corner * offsets[:, 1]).sum() / (corner * smile[:, 1]).sum()
     upper, lower = (canvas.symmetric(unit(source, f"ak:mouthRoll{lip}")) for lip in ("Upper", "Lower"))
-    return (offsets - share * smile) * (0.45, 1, 0.8) + left_half(canvas, 0.3 * upper + 0.35 * lower)
+    pressed: Offsets = (offsets - share * smile) * (0.45, 1, 0.8) + left_half(canvas, 0.25 * upper + 0.3 * lower)
+    return pressed
 
 
 def _pinch(_source: Source, canvas: Canvas, offsets: Offsets) -> Offsets:
@@ -98,7 +99,7 @@ def _mouth_corner(_source: Source, canvas: Canvas, offsets: Offsets) -> Offsets:
 
 def _neck(_source: Source, canvas: Canvas, offsets: Offsets) -> Offsets:
     """Round the cords of the neck: their steep inner side looked like a dark mark under the jaw."""
-    return canvas.smoothed(offsets, smoothstep(-canvas.points[:, 1], 84, 98), 10)
+    return canvas.smoothed(offsets, smoothstep(-canvas.points[:, 1], 84, 98), 3)
 
 
 def _upper(_source: Source, canvas: Canvas, offsets: Offsets) -> Offsets:

@@ -96,7 +96,7 @@ TABLES: Mapping[str, Callable[[Rig], str]] = {
 
 def _table(head: Iterable[object], rows: Iterable[Iterable[object]]) -> str:
     titles = list(head)
-    lines = [titles, ["---"] * len(titles), *rows]
+    lines: list[Iterable[object]] = [titles, ["---"] * len(titles), *rows]
     return "\n".join(f"| {' | '.join(str(cell) for cell in line)} |" for line in lines)
 
 
