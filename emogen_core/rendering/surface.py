@@ -61,6 +61,7 @@ class Surface:
         self._rest: dict[str, float] = {}
         self._creased = np.flatnonzero(look.wrinkle_masks.any(axis=1))
         self._masks = np.ascontiguousarray(look.wrinkle_masks[self._creased].T)
+        self._hair: dict[str, tuple[NDArray[np.intp], NDArray[np.float32]]] = {}
         self._templates: dict[str, dict[str, NDArray[np.float32]]] = {}
 
     def faces(self, identity: str, weights: NDArray[np.float32]) -> Iterator[dict[str, NDArray[np.float32]]]:
@@ -118,9 +119,12 @@ class Surface:
 
     def _comb(self, rows: NDArray[np.float32], identity: str) -> None:
         """Lift the hair off the scalp."""
-        hair = self.look.bakes[self.look.style(identity).bake][:, 3]
-        haired = np.flatnonzero(hair)
-        rows[haired, POSITION] += HAIR_DEPTH * hair[haired, None] * rows[haired, NORMAL]
+        if identity not in self._hair:
+            hair = self.look.bakes[self.look.style(identity).bake][:, 3]
+            haired = np.flatnonzero(hair)
+            self._hair[identity] = haired, HAIR_DEPTH * hair[haired, None]
+        haired, lift = self._hair[identity]
+        rows[haired, POSITION] += lift * rows[haired, NORMAL]
 
     def _template(self, identity: str) -> dict[str, NDArray[np.float32]]:
         if identity not in self._templates:

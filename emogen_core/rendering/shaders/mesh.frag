@@ -4,6 +4,7 @@ struct Material {
 };
 uniform Material material;
 uniform vec3 background;
+uniform vec3 fade;
 uniform vec3 tone;
 uniform float breakup;  // how much of the shine a darker texel loses: 3.2 / green of the skin's tone
 
@@ -29,10 +30,11 @@ vec3 developed(vec3 c) {
 }
 
 void main() {
+    float gone = smoothstep(fade.x, fade.y, extra.y);
     vec4 texel = texture(material.base_color_texture, uv);
 #ifdef KIND_LASH
     vec3 c = developed(tone * tone * diffuse);
-    colour = vec4(c, texel.a * (1.0 - extra.y));
+    colour = vec4(c, texel.a * (1.0 - gone));
 #else
     vec3 albedo = texel.rgb * texel.rgb;
 #ifdef KIND_EYE
@@ -48,14 +50,14 @@ void main() {
         + smoothstep(0.34, 0.60, diffuse.x) * 0.10 * texel.a * smoothstep(0.975, 0.99, g) + 0.06 * pow(h, 40.0));
     // A line of tears lies on the lower lid.
     c += diffuse.z * key * 0.16 * smoothstep(0.005, 0.03, extra.x) * (1.0 - smoothstep(0.04, 0.085, extra.x));
-    colour = vec4(mix(developed(c), background, extra.y), 1.0);
+    colour = vec4(mix(developed(c), background, gone), 1.0);
 #else
     // What a fold's slope adds to the light or takes from it; in its shadow red light remains longest.
     float relief = (texel.a - 128.0 / 255.0) * 2.0 * extra.x;
     // Pores, hair and brows are darker than skin and shine less: that breaks the highlight up.
     float rough = clamp(breakup * texel.g - 2.2, 0.10, 1.6);
     vec3 c = albedo * diffuse * (1.0 + relief * vec3(0.80, 1.0, 1.06)) + shine * rough * max(1.0 + 1.8 * relief, 0.0);
-    colour = vec4(mix(developed(c), background, extra.y), 1.0);
+    colour = vec4(mix(developed(c), background, gone), 1.0);
 #endif
 #endif
 }

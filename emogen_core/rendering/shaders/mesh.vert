@@ -9,13 +9,13 @@ layout(location = 4) in vec4 tint;   // skin: occlusion, skin, gloss, wrinkles; 
 uniform mat4 V;
 uniform mat4 P;
 uniform vec3 cam_pos;
-uniform vec3 fade;  // height where the bust starts to fade, where it is gone, fall towards the shoulders (1/mm)
+uniform vec3 fade;  // height where the bust starts to fade, where it is gone, rise of both towards the sides (1/mm)
 uniform float shine_scale;
 
 out vec2 uv;
 out vec3 diffuse;
 out vec3 shine;
-out vec2 extra;  // wrinkle activation, share of background
+out vec2 extra;  // wrinkle activation, height against which the bust fades
 
 #ifdef KIND_EYE
 out vec3 ray;
@@ -62,7 +62,7 @@ void main() {
     float gloss = tint.z * shine_scale;
     shine = gloss * (KEY_COLOUR * light.x * lobes(n, KEY, view) + FILL_COLOUR * tint.x * lobes(n, FILL, view)
         + tint.x * edge * (0.06 * SKY + 0.22 * RIM_COLOUR * clamp(dot(n, RIM) + 0.45, 0.0, 1.0)));
-    extra = vec2(tint.w, smoothstep(fade.x, fade.y, position.y - fade.z * position.x * position.x));
+    extra = vec2(tint.w, position.y - fade.z * position.x * position.x);
     uv = texcoord;
 #ifdef KIND_EYE
     diffuse = tint.xyz;

@@ -81,10 +81,14 @@ def test_the_bundled_look_dresses_every_bundled_identity():
         assert look.bakes[style.bake].shape == (len(look.layers["skin"].source), 4)
 
 
-def test_every_vertex_of_the_bundled_look_exists_and_every_triangle_is_drawn():
+def test_every_triangle_that_faces_the_camera_is_drawn_and_every_vertex_exists():
     rig, look = load_bundled_rig(), bundled_look()
-    drawn = sum(len(layer.triangles) for layer in look.layers.values())
-    assert drawn == len(rig.triangles)
+    drawn = {tuple(row) for layer in look.layers.values() for row in layer.source[layer.triangles].tolist()}
+    assert drawn <= {tuple(row) for row in rig.triangles.tolist()}
+    for identity in rig.identities:
+        a, b, c = np.moveaxis(rig.neutral(identity)[rig.triangles], 1, 0)
+        facing = np.einsum("tk,tk->t", np.cross(b - a, c - a), np.array([0, -20, 700]) - a) > 0
+        assert {tuple(row) for row in rig.triangles[facing].tolist()} <= drawn
     for layer in look.layers.values():
         assert layer.source.max() < rig.offsets.shape[1]
         assert layer.triangles.max() < len(layer.source)
