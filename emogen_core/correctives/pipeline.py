@@ -71,7 +71,7 @@ def shape_weights(rig: Rig, genes: NDArray[np.float64]) -> NDArray[np.float32]:
     Raises:
         InvalidInputError: wrong shape, not finite, or outside [0, 1].
     """
-    values = checked_weights(genes.astype(np.float32), len(rig.genes))
+    values = checked_weights(genes, len(rig.genes), "genes")
     core = np.clip(values @ rig.gene_to_core, 0, 1)
     combined = combinational_weights(rig, core)
     collision = np.zeros((len(core), len(rig.collision_shapes)), np.float32)

@@ -58,8 +58,9 @@ def write_container(
         The content's SHA-256, hexadecimal.
 
     Raises:
-        RigFileError: a name, a dtype or the document cannot be stored.
+        RigFileError: a name, a dtype or the document cannot be stored, or the file cannot be written.
     """
+    check_writable(path)
     plain = {name: _plain(name, arrays[name]) for name in sorted(arrays)}
     digest = content_hash(kind, version, document, plain)
     envelope = {"format": FORMAT, "kind": kind, "version": version, "hash": digest, "document": document}
@@ -68,10 +69,16 @@ def write_container(
         _add(archive, _DOCUMENT, _canonical(envelope))
         for name, array in plain.items():
             _add(archive, f"{name}.npy", _npy(array))
-    scratch = path.with_name(path.name + ".part")
-    scratch.write_bytes(buffer.getvalue())
-    scratch.replace(path)
+    _replace(path, buffer.getvalue())
     return digest
+
+
+def check_writable(path: Path) -> None:
+    """Raise `RigFileError` unless a file can be written here: better before the long work than after it."""
+    if path.is_dir():
+        _refuse(path, "a file to write", "a folder")
+    if not path.parent.is_dir():
+        _refuse(path, "a folder to write to", str(path.parent))
 
 
 def read_container(path: Path, kind: str, version: int) -> tuple[dict[str, Any], dict[str, NDArray[Any]], str]:
@@ -137,6 +144,17 @@ def _add(archive: zipfile.ZipFile, name: str, data: bytes) -> None:
     info.create_system = 3
     info.external_attr = 0o644 << 16
     archive.writestr(info, data, compresslevel=9)
+
+
+def _replace(path: Path, data: bytes) -> None:
+    """Write a file in one step; of a failed attempt nothing is left."""
+    scratch = path.with_name(path.name + ".part")
+    try:
+        scratch.write_bytes(data)
+        scratch.replace(path)
+    except OSError as error:
+        scratch.unlink(missing_ok=True)
+        raise RigFileError(f"{path.name}: {expected('to be written', error.strerror)}") from error
 
 
 def _npy(array: NDArray[Any]) -> bytes:

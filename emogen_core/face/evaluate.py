@@ -9,7 +9,7 @@ import numpy as np
 from emogen_core.errors import InvalidInputError, expected
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from emogen_core.face.rig import Rig
 
@@ -37,12 +37,16 @@ def vertices(rig: Rig, identity: str, weights: NDArray[np.float32]) -> NDArray[n
     return neutral + moved.reshape(len(alpha), *neutral.shape)
 
 
-def checked_weights(weights: NDArray[np.float32], count: int) -> NDArray[np.float32]:
-    """Return weights as (B, count) float32 or raise `InvalidInputError` with what was expected."""
-    alpha = np.asarray(weights, np.float32)
+def checked_weights(weights: ArrayLike, count: int, what: str = "weights") -> NDArray[np.float32]:
+    """Return weights as (B, count) float32 or raise `InvalidInputError` with what was expected; ``what`` names them."""
+    given = np.asarray(weights)
+    if given.dtype.kind not in "biuf":
+        raise InvalidInputError(f"{what}: {expected('numbers', str(given.dtype))}")
+    with np.errstate(over="ignore"):  # becomes infinite, and is refused below
+        alpha = given.astype(np.float32, copy=False)
     if alpha.ndim != 2 or alpha.shape[1] != count:
-        raise InvalidInputError(f"weights: {expected(f'shape (faces, {count})', alpha.shape)}")
+        raise InvalidInputError(f"{what}: {expected(f'shape (faces, {count})', alpha.shape)}")
     if not np.isfinite(alpha).all() or (alpha < 0).any() or (alpha > 1).any():
         worst = alpha[~((alpha >= 0) & (alpha <= 1))][0]
-        raise InvalidInputError(f"weights: {expected('finite values in [0, 1]', float(worst))}")
+        raise InvalidInputError(f"{what}: {expected('finite values in [0, 1]', float(worst))}")
     return alpha

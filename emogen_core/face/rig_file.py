@@ -24,6 +24,7 @@ STEPS_PER_MILLIMETRE = 512
 # Rounds the exact ties that halves and quarters of the source's decimals make, so the last bit of a product of
 # another machine cannot decide.
 _TIE_BREAK = 0.5001
+MAX_OFFSETS = 2**25
 
 
 def save_rig(rig: Rig, path: Path) -> Rig:
@@ -71,6 +72,8 @@ def check_rig_content(rig: Rig) -> None:
         shape = (len(adjustment.shapes), vertices, 3)
         _need(adjustment.offsets.shape == shape and name in rig.neutrals, f"adjustment {name} {shape}", name)
         _need(bool((adjustment.shapes < len(rig.shape_names)).all()), "adjusted shapes that exist", name)
+        # Twice would be added once by the one way of evaluating, and twice by the other.
+        _need(len(np.unique(adjustment.shapes)) == len(adjustment.shapes), "adjusted shapes named once", name)
     _check_names(rig)
     _check_parts(rig)
 
@@ -188,8 +191,11 @@ def _packed(prefix: str, offsets: NDArray[np.float32]) -> dict[str, NDArray[Any]
 
 
 def _unpacked(prefix: str, arrays: Mapping[str, NDArray[Any]], vertices: int) -> NDArray[np.float32]:
-    count, vertex, step = (arrays[f"{prefix}/{part}"] for part in ("count", "vertex", "step"))
+    count, vertex = (_integers(arrays, f"{prefix}/{part}", 1, np.int32) for part in ("count", "vertex"))
+    step = _integers(arrays, f"{prefix}/step", 2, np.int16)
     _need(count.sum() == len(vertex) and bool((vertex >= 0).all()), f"{prefix}: {count.sum()} vertices", len(vertex))
+    # A short file could ask for any amount of memory.
+    _need(len(count) * vertices <= MAX_OFFSETS, f"at most {MAX_OFFSETS} offsets", len(count) * vertices)
     offsets = np.zeros((len(count), vertices, 3), np.float32)
     offsets[np.repeat(np.arange(len(count)), count), vertex] = _from_steps(step)
     return offsets
@@ -198,7 +204,8 @@ def _unpacked(prefix: str, arrays: Mapping[str, NDArray[Any]], vertices: int) ->
 def _rig(document: dict[str, Any], arrays: dict[str, NDArray[Any]], digest: str) -> Rig:
     vertices = int(document["vertices"])
     _need(0 < vertices <= 2**20, "at most a million vertices", vertices)
-    regions = {name.removeprefix("region/"): a for name, a in arrays.items() if name.startswith("region/")}
+    regions = {n.removeprefix("region/"): _integers(arrays, n, 1, np.int32) for n in arrays if n.startswith("region/")}
+    names = _strings(document["identities"])
     return Rig(
         name=str(document["name"]),
         genes=tuple(_gene(entry) for entry in document["genes"]),
@@ -207,11 +214,11 @@ def _rig(document: dict[str, Any], arrays: dict[str, NDArray[Any]], digest: str)
         collision_shapes=_strings(document["collision_shapes"]),
         emotion_sets={entry["name"]: _emotion(entry) for entry in document["emotion_sets"]},
         offsets=_unpacked("offset", arrays, vertices),
-        neutrals={name: _from_steps(arrays[f"neutral/{name}"]) for name in _strings(document["identities"])},
-        triangles=arrays["triangles"],
+        neutrals={name: _from_steps(_integers(arrays, f"neutral/{name}", 2, np.int32)) for name in names},
+        triangles=_integers(arrays, "triangles", 2, np.int32),
         parts={name: (int(first), int(last)) for name, first, last in document["parts"]},
         regions=regions,
-        mirror=arrays["mirror"],
+        mirror=_integers(arrays, "mirror", 1, np.int32),
         adjustments={name: _adjustment(name, arrays, vertices) for name in _strings(document["adjusted"])},
         hash=digest,
     )
@@ -232,9 +239,17 @@ def _emotion(entry: dict[str, Any]) -> EmotionSet:
 
 
 def _adjustment(name: str, arrays: Mapping[str, NDArray[Any]], vertices: int) -> Adjustment:
-    shapes = arrays[f"adjusted/{name}/shapes"].astype(np.intp)
+    shapes = _integers(arrays, f"adjusted/{name}/shapes", 1, np.int32).astype(np.intp)
     _need(bool((shapes >= 0).all()), "adjusted shapes that exist", shapes.tolist())
     return Adjustment(shapes, _unpacked(f"adjusted/{name}", arrays, vertices))
+
+
+def _integers(arrays: Mapping[str, NDArray[Any]], name: str, axes: int, kind: type[np.integer[Any]]) -> NDArray[Any]:
+    """Return an array that is stored as it is meant: another type or shape would be read as something else."""
+    found = arrays[name]
+    wanted = f"{name} of {np.dtype(kind)} with {axes} axes"
+    _need(found.dtype == kind and found.ndim == axes, wanted, f"{found.dtype} {found.shape}")
+    return found
 
 
 def _strings(values: list[Any]) -> tuple[str, ...]:

@@ -1,83 +1,119 @@
-"""Measures a rig: what it has, and what random faces do to its mesh with and without combinational correctives."""
+"""Measures a rig: what it has, and for every head what random faces show, held against the bars of this house."""
 
 from __future__ import annotations
 
-import time
+import multiprocessing
+import os
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from emogen_core.correctives.pipeline import shape_weights
+from emogen_core.correctives.collision import has_regions
 from emogen_core.errors import InvalidInputError, expected
-from emogen_core.face.evaluate import vertices
-from emogen_core.rigs.quality import Damage, Gauge
+from emogen_core.rigs.collision_check import check_collisions
+from emogen_core.rigs.combination_check import combination_report
+from emogen_core.rigs.random_faces import active_genes
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from collections.abc import Callable, Iterator, Sequence
 
     from emogen_core.face.rig import Rig
 
-# Random faces are those of the search's random operator: this many genes at a uniform weight.
-GENES_A_FACE = 6
-BATCH = 10
+    Measure = Callable[[Rig, str, int, int], dict[str, Any]]
 
-_INACTIVE = frozenset({"lateral", "disabled"})
-_FLESH = ("skin", "mouth", "sockets")
+# One core a process: the bars are for one core.
+_ONE_CORE = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
-def check_rig(rig: Rig, faces: int = 200, seed: int = 0, identity: str | None = None) -> dict[str, Any]:
-    """Measure a rig on random faces.
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """How many random faces of every head are judged, and their seed."""
+
+    faces: int = 1000
+    seed: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Bar:
+    """What a figure of every head must reach: at most, at least, or exactly ``limit``.
+
+    ``where`` leads to the figure in a head's report: the measure, then its keys.
+    """
+
+    name: str
+    where: tuple[str, ...]
+    rule: str
+    limit: float
+
+    def met(self, value: float) -> bool:
+        """Return whether a figure reaches the bar."""
+        return {"at most": value <= self.limit, "at least": value >= self.limit, "is": value == self.limit}[self.rule]
+
+    def worse(self, value: float) -> float:
+        """Return a number that is greater the worse a figure is."""
+        return {"at most": value, "at least": -value, "is": float(value != self.limit)}[self.rule]
+
+
+MEASURES: dict[str, Measure] = {"collisions": check_collisions, "combinations": combination_report}
+BARS = (
+    Bar("share over 0.5 mm afterwards", ("collisions", "over_half_mm_after"), "at most", 0.01),
+    Bar("milliseconds a face, mean", ("collisions", "milliseconds", "processor", "mean"), "at most", 3.0),
+    Bar("milliseconds a face, p99", ("collisions", "milliseconds", "processor", "p99"), "at most", 8.0),
+    Bar("faces without collision bit-identical", ("collisions", "untouched_identical"), "is", True),
+    Bar("neutral collides", ("collisions", "neutral_collides"), "is", False),
+    Bar("flipped triangles fell by", ("combinations", "flips_fell"), "at least", 0.25),
+    Bar("overstretched triangles fell by", ("combinations", "stretched_fell"), "at least", 0.2),
+)
+
+
+def check_rig(
+    rig: Rig,
+    sample: Sample,
+    identities: Sequence[str] = (),
+    workers: int = 0,
+    progress: Callable[[str], None] = lambda _: None,
+) -> dict[str, Any]:
+    """Measure a rig on the same random faces of every head.
 
     Args:
-        rig: the face model; its parts ``skin``, ``mouth`` and ``sockets`` are judged.
-        faces: how many random faces to draw.
-        seed: of the faces.
-        identity: the head that wears the rig; the first one if not given.
+        rig: the face model.
+        sample: which faces.
+        identities: the heads; all of them if none is named.
+        workers: how many processes of one core each work on the heads; 0 for this process.
+        progress: told the name of every head that is done.
 
     Returns:
-        JSON-ready figures: counts, mean flipped and overstretched triangles a face without and with
-        combinational correctives, how many faces these make better or worse, and milliseconds a face from genes to
-        vertices.
+        JSON-ready: ``name``, ``hash``, ``counts``, ``faces``, ``seed``; under ``identities`` what each of `MEASURES`
+        says of a head; under ``bars`` the worst head for each of `BARS` and whether it is ``met``.
 
     Raises:
         InvalidInputError: no faces, or an unknown identity.
     """
-    if faces < 1:
-        raise InvalidInputError(f"faces: {expected('at least 1', faces)}")
-    worn = identity or rig.identities[0]
-    genes = random_genes(rig, faces, seed)
-    gauge = Gauge(rig.neutral(worn).astype(np.float64), _flesh(rig))
-    without, corrected = (_damages(rig, worn, gauge, genes, on) for on in (False, True))
+    if sample.faces < 1:
+        raise InvalidInputError(f"faces: {expected('at least 1', sample.faces)}")
+    heads = list(dict.fromkeys(identities)) or list(rig.identities)
+    for head in heads:
+        rig.neutral(head)
+    reports: dict[str, dict[str, Any]] = {}
+    for head, report in _each(rig, heads, sample, workers):
+        reports[head] = report
+        progress(head)
     return {
         "name": rig.name,
         "hash": rig.hash,
-        "identity": worn,
-        "counts": _counts(rig),
-        "faces": faces,
-        "seed": seed,
-        "without_combinations": _means(without),
-        "with_combinations": _means(corrected),
-        "faces_better": sum(b.flips < a.flips for a, b in zip(without, corrected, strict=True)),
-        "faces_worse": sum(b.flips > a.flips for a, b in zip(without, corrected, strict=True)),
-        "milliseconds_a_face": _milliseconds(rig, worn, genes),
+        "counts": counts(rig),
+        "faces": sample.faces,
+        "seed": sample.seed,
+        "identities": reports,
+        "bars": verdicts(reports),
     }
 
 
-def random_genes(rig: Rig, faces: int, seed: int) -> NDArray[np.float64]:
-    """Return (faces, G) genomes with `GENES_A_FACE` active genes each, uniform in [0, 1]."""
-    generator = np.random.default_rng(seed)
-    active = np.flatnonzero([not gene.flags & _INACTIVE for gene in rig.genes])
-    genes = np.zeros((faces, len(rig.genes)))
-    for row in genes:
-        chosen = generator.choice(active, min(GENES_A_FACE, len(active)), replace=False)
-        row[chosen] = generator.random(len(chosen))
-    return genes
-
-
-def _counts(rig: Rig) -> dict[str, int]:
+def counts(rig: Rig) -> dict[str, int]:
+    """Return how many of everything a rig has."""
     return {
         "genes": len(rig.genes),
-        "active_genes": sum(not gene.flags & _INACTIVE for gene in rig.genes),
+        "active_genes": len(active_genes(rig)),
         "core_shapes": len(rig.core_shapes),
         "combinational_correctives": len(rig.combinations),
         "collision_correctives": len(rig.collision_shapes),
@@ -88,27 +124,53 @@ def _counts(rig: Rig) -> dict[str, int]:
     }
 
 
-def _flesh(rig: Rig) -> NDArray[np.int32]:
-    rows = [rig.triangles[slice(*rig.parts[name])] for name in _FLESH if name in rig.parts]
-    return np.concatenate(rows) if rows else rig.triangles
+def verdicts(reports: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
+    """Return for each of `BARS` the worst head, its figure, and whether it meets the bar; bars without a figure not."""
+    found = []
+    for bar in BARS:
+        values = {head: _figure(report, bar.where) for head, report in reports.items() if bar.where[0] in report}
+        if not values:
+            continue
+        worst = max(values, key=lambda head: bar.worse(values[head]))
+        told = {"bar": bar.name, "rule": bar.rule, "limit": bar.limit, "worst": values[worst], "identity": worst}
+        found.append({**told, "met": bar.met(values[worst])})
+    return found
 
 
-def _damages(rig: Rig, identity: str, gauge: Gauge, genes: NDArray[np.float64], combined: bool) -> list[Damage]:
-    weights = shape_weights(rig, genes)
-    if not combined:
-        weights[:, len(rig.core_shapes) :] = 0
-    batches = [weights[first : first + BATCH] for first in range(0, len(weights), BATCH)]
-    return [gauge.damage(m.astype(np.float64)) for batch in batches for m in vertices(rig, identity, batch)]
+def head_report(rig: Rig, head: str, sample: Sample) -> dict[str, Any]:
+    """Return what each of `MEASURES` says of one head; without ``collisions`` where a rig has no such correctives."""
+    fitting = {name: measure for name, measure in MEASURES.items() if name != "collisions" or has_regions(rig)}
+    return {name: measure(rig, head, sample.faces, sample.seed) for name, measure in fitting.items()}
 
 
-def _means(damages: list[Damage]) -> dict[str, float]:
-    fields = ("flips", "folds", "stretched")
-    return {name: round(float(np.mean([getattr(d, name) for d in damages])), 3) for name in fields}
+def _each(rig: Rig, heads: list[str], sample: Sample, workers: int) -> Iterator[tuple[str, dict[str, Any]]]:
+    if not workers:
+        for head in heads:
+            yield head, head_report(rig, head, sample)
+        return
+    for name in _ONE_CORE:
+        os.environ.setdefault(name, "1")
+    spawn = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(workers, mp_context=spawn, initializer=_take, initargs=(rig,)) as pool:
+        jobs = {head: pool.submit(_report_of_taken, head, sample) for head in heads}
+        for head, job in jobs.items():
+            yield head, job.result()
 
 
-def _milliseconds(rig: Rig, identity: str, genes: NDArray[np.float64]) -> float:
-    batch = genes[:BATCH]
-    vertices(rig, identity, shape_weights(rig, batch))
-    start = time.perf_counter()
-    vertices(rig, identity, shape_weights(rig, batch))
-    return round((time.perf_counter() - start) * 1000 / len(batch), 3)
+def _figure(report: dict[str, Any], where: tuple[str, ...]) -> float:
+    found: Any = report
+    for key in where:
+        found = found[key]
+    return found  # type: ignore[no-any-return]
+
+
+_taken: list[Rig] = []
+
+
+def _take(rig: Rig) -> None:
+    """Keep the rig in a process that works for `check_rig`: it is large, and sent once."""
+    _taken[:] = [rig]
+
+
+def _report_of_taken(head: str, sample: Sample) -> dict[str, Any]:
+    return head_report(_taken[0], head, sample)

@@ -21,9 +21,13 @@ if TYPE_CHECKING:
 ZONES = ("OuterLeft", "InnerLeft", "InnerRight", "OuterRight")
 COLLISION_SHAPES = tuple(f"{kind}{zone}" for kind in ("lips", "teeth") for zone in ZONES)
 LIP_MILLIMETRES = 5.0
-TEETH_MILLIMETRES = 8.0
+# Enough for the canines of a head with a wide smile, where the lip moves outward by a third of it.
+TEETH_MILLIMETRES = 12.0
 
-_CENTRES = (18.0, 6.0, -6.0, -18.0)
+# Where inner zones end, from the middle, and over how much to either side a zone gives way to the next. Inner zones
+# are narrow, so that lips that collide at the sides are parted there and show no slit of teeth in the middle.
+_BORDER = 7.0
+_BLEND = 4.0
 _FADE = (3.0, 17.0)
 _LIP_DEPTH = 9.0
 
@@ -63,8 +67,6 @@ def _away(geometry: HeadGeometry, low: NDArray[np.float64], neutral: NDArray[np.
 
 def _zone_weights(x: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return (4, N) smooth weights that sum to one."""
-    spread = _CENTRES[0] - _CENTRES[1]
-    clipped = np.clip(x, _CENTRES[-1], _CENTRES[0])
-    steps = np.clip(np.abs(clipped[None] - np.array(_CENTRES)[:, None]) / spread, 0, 1)
-    weights: NDArray[np.float64] = (1 + np.cos(np.pi * steps)) / 2
-    return weights
+    left = smoothstep(x, -_BLEND, _BLEND)
+    outer = smoothstep(np.abs(x), _BORDER - _BLEND, _BORDER + _BLEND)
+    return np.stack([outer * left, (1 - outer) * left, (1 - outer) * (1 - left), outer * (1 - left)])

@@ -1,64 +1,91 @@
-"""Contact sheets: every gene, identity and emotion, and random faces, so that somebody can look at all of them."""
+"""All contact sheets of the bundled head, so that somebody can look at everything: `emogen rig sheet`."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 import numpy as np
-from PIL import Image, ImageDraw, ImageFont
 
-from emogen_core.correctives.pipeline import face_weights
-from emogen_core.rendering.protocol import RenderSettings
+from emogen_core.errors import InvalidInputError, expected
 from emogen_core.rendering.setup import make_renderer
+from emogen_core.rigs.collision_sheet import collision_sheet
+from emogen_core.rigs.contact import FACE, PORTRAIT, QUALITY, Frame, Tile, contact_sheet
+from emogen_core.rigs.random_faces import active_genes
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Callable, Iterator, Sequence
     from pathlib import Path
 
     from numpy.typing import NDArray
+    from PIL import Image
 
     from emogen_core.face.rig import Rig
     from emogen_core.rendering.protocol import Renderer
 
-    Tile = tuple[str, str, NDArray[np.float64]]
+    Sheet = Callable[[Renderer, Rig], Image.Image]
 
 RANDOM_FACES = 20
 # As the search's random faces: so many genes of the enabled ones, each uniform in [0, 1].
 RANDOM_GENES = 6
-EMOTION_STRENGTH = 0.65
-_SMALL, _LARGE = RenderSettings(220, 264), RenderSettings(320, 384)
-_CAPTION = 18
-_QUALITY = 84
+EMOTION_STRENGTH = 1.0
+# Heads that differ in everything the grid of presets has.
+FOUR = ("female", "male", "asian-female-old", "african-male-young")
+_LARGE = Frame(300, FACE.part)
 
 
-def make_sheets(out_dir: Path, backend: str = "pyrender") -> list[Path]:
-    """Draw all sheets of the bundled rig as JPEG files.
+def make_sheets(out_dir: Path, backend: str = "pyrender", only: Sequence[str] = ()) -> list[Path]:
+    """Draw sheets of the bundled rig as JPEG files.
 
     Args:
         out_dir: the folder to write to; made if need be.
         backend: which renderer draws.
+        only: names among `SHEETS`; all of them if none is named.
 
     Returns:
-        The files: ``genes.jpg`` (every gene at 1 on two heads), ``identities.jpg``, ``emotions.jpg`` (the emotion sets
-        on every head) and ``random.jpg``.
+        The files, each named after its sheet.
 
     Raises:
+        InvalidInputError: an unknown sheet.
         MissingGLError: ``pyrender`` on a machine without OpenGL.
     """
+    unknown = [name for name in only if name not in SHEETS]
+    if unknown:
+        raise InvalidInputError(f"sheets: {expected(f'names among {list(SHEETS)}', unknown)}")
     out_dir.mkdir(parents=True, exist_ok=True)
     renderer, rig = make_renderer(backend)
-    sheets = {
-        "genes": (_genes(rig), 10, _SMALL),
-        "identities": (_identities(rig), 7, _LARGE),
-        "emotions": (_emotions(rig), 1 + len(rig.emotion_sets), _SMALL),
-        "random": (_random(rig), 5, _LARGE),
-    }
     paths = []
-    for name, (tiles, columns, settings) in sheets.items():
+    for name in only or SHEETS:
         paths.append(out_dir / f"{name}.jpg")
-        _sheet(renderer, rig, tiles, columns, settings).save(paths[-1], quality=_QUALITY)
+        SHEETS[name](renderer, rig).save(paths[-1], quality=QUALITY)
     renderer.close()
     return paths
+
+
+def genes_sheet(renderer: Renderer, rig: Rig) -> Image.Image:
+    """Draw every gene at 1 on two heads."""
+    return contact_sheet(renderer, rig, _genes(rig), 10, FACE)
+
+
+def identities_sheet(renderer: Renderer, rig: Rig) -> Image.Image:
+    """Draw every head at rest."""
+    nothing = np.zeros(len(rig.genes))
+    return contact_sheet(renderer, rig, (Tile(name, name, nothing) for name in rig.identities), 7, PORTRAIT)
+
+
+def emotions_sheet(renderer: Renderer, rig: Rig) -> Image.Image:
+    """Draw every emotion set at full strength on four heads, a row a head."""
+    heads = [name for name in FOUR if name in rig.identities]
+    return contact_sheet(renderer, rig, _emotions(rig, heads), 1 + len(rig.emotion_sets), _LARGE)
+
+
+def all_emotions_sheet(renderer: Renderer, rig: Rig) -> Image.Image:
+    """Draw every emotion set at full strength on every head, a row a head."""
+    return contact_sheet(renderer, rig, _emotions(rig, rig.identities), 1 + len(rig.emotion_sets), FACE)
+
+
+def random_sheet(renderer: Renderer, rig: Rig) -> Image.Image:
+    """Draw twenty corrected random faces."""
+    return contact_sheet(renderer, rig, _random(rig), 5, PORTRAIT)
 
 
 def emotion_genes(rig: Rig, emotion: str, strength: float = EMOTION_STRENGTH) -> NDArray[np.float64]:
@@ -68,44 +95,37 @@ def emotion_genes(rig: Rig, emotion: str, strength: float = EMOTION_STRENGTH) ->
     return genes
 
 
+# Name of the file and what draws it; a sheet more is a line more.
+SHEETS: dict[str, Sheet] = {
+    "genes": genes_sheet,
+    "identities": identities_sheet,
+    "emotions": emotions_sheet,
+    "emotions-all": all_emotions_sheet,
+    "random": random_sheet,
+    "collisions": collision_sheet,
+}
+
+
 def _genes(rig: Rig) -> Iterator[Tile]:
     for identity in ("female", "male"):
-        yield identity, "neutral", np.zeros(len(rig.genes))
+        yield Tile(identity, "neutral", np.zeros(len(rig.genes)))
         for row, gene in zip(np.eye(len(rig.genes)), rig.genes, strict=True):
-            yield identity, f"{gene.name} {'+'.join(gene.action_units)}", row
+            yield Tile(identity, f"{gene.name} {'+'.join(gene.action_units)}", row)
 
 
-def _identities(rig: Rig) -> Iterator[Tile]:
-    for identity in rig.identities:
-        yield identity, identity, np.zeros(len(rig.genes))
-
-
-def _emotions(rig: Rig) -> Iterator[Tile]:
-    for identity in rig.identities:
-        yield identity, identity, np.zeros(len(rig.genes))
+def _emotions(rig: Rig, heads: Sequence[str]) -> Iterator[Tile]:
+    for identity in heads:
+        yield Tile(identity, identity, np.zeros(len(rig.genes)))
         for emotion in rig.emotion_sets:
-            yield identity, emotion, emotion_genes(rig, emotion)
+            yield Tile(identity, emotion, emotion_genes(rig, emotion))
 
 
 def _random(rig: Rig) -> Iterator[Tile]:
     rng = np.random.default_rng(2021)
-    enabled = [i for i, gene in enumerate(rig.genes) if not gene.flags & {"disabled", "lateral", "gaze"}]
+    # Where the eyes look tells little about a face, and a row of squints hides what the rest does.
+    enabled = [i for i in active_genes(rig) if "gaze" not in rig.genes[i].flags]
     for number in range(RANDOM_FACES):
         genes = np.zeros(len(rig.genes))
         genes[rng.choice(enabled, RANDOM_GENES, replace=False)] = rng.random(RANDOM_GENES)
         identity = rig.identities[number % len(rig.identities)]
-        yield identity, f"{number + 1} {identity}", genes
-
-
-def _sheet(renderer: Renderer, rig: Rig, tiles: Iterable[Tile], columns: int, settings: RenderSettings) -> Image.Image:
-    listed = list(tiles)
-    height = settings.height + _CAPTION
-    rows = -(-len(listed) // columns)
-    sheet = Image.new("RGB", (columns * settings.width, rows * height), "white")
-    pen, font = ImageDraw.Draw(sheet), ImageFont.load_default(12)
-    for number, (identity, caption, genes) in enumerate(listed):
-        weights = face_weights(rig, identity, genes[np.newaxis]).weights
-        left, top = number % columns * settings.width, number // columns * height
-        sheet.paste(Image.fromarray(renderer.draw(identity, weights, settings)[0]), (left, top))
-        pen.text((left + 4, top + settings.height + 2), caption, fill="black", font=font)
-    return sheet
+        yield Tile(identity, f"{number + 1} {identity}", genes)

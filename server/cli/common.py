@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import typer
 from pydantic import ValidationError
 
-from emogen_core.errors import EmogenError
+from emogen_core.errors import EmogenError, expected
 
 from ..services.drawing import open_house
 from ..services.errors import ServiceError
@@ -16,6 +16,7 @@ from ..settings import Settings
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from pathlib import Path
 
     from ..services.house import House
 
@@ -49,6 +50,15 @@ def plainly() -> Iterator[None]:
         yield
     except (EmogenError, ServiceError) as error:
         raise stop(str(error)) from error
+
+
+def made_folder(path: Path) -> Path:
+    """Return a folder to write to, made if need be; end the command if there cannot be one."""
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise stop(f"--out: {expected('a folder to write to', f'{path} ({error.strerror})')}") from error
+    return path
 
 
 def stop(message: str) -> typer.Exit:

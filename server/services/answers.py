@@ -2,7 +2,8 @@
 
 Everything happens in one short write transaction that begins with the participation's row: look the answer up by its
 id, check that it is for the current step, apply it, store it with the reply. So a repeat gets the stored reply, and of
-two racing tabs one wins and the other is told the state to go on from. Drawing starts after the transaction.
+two racing tabs one wins and the other is told the state to go on from. Faces are corrected before the transaction and
+drawn after it.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from ..store.runs_tables import Answer, ChoiceRecord, Rating
 from .answer_bodies import ChoiceAnswer, ConsentAnswer, InstructionsAnswer, RatingAnswer, ResetAnswer
 from .clock import new_id, now
 from .errors import AnswerConflictError, InvalidError, StaleStepError
+from .rehearsal import rehearse
 from .steps import Walk
 
 if TYPE_CHECKING:
@@ -46,6 +48,7 @@ class Answers:
             StaleStepError: not for the current step.
             InvalidError: not acceptable; nothing was stored.
         """
+        rehearse(self.journal, token, body)
         with self.journal.database.write() as tx:
             participation, config = self.journal.find(tx, token, lock=True)
             stored = runs.answer(tx, participation.id, str(body.id))

@@ -54,8 +54,9 @@ class Search(_Part):
     initialisation: Literal["protocol", "fixed"] = "protocol"
     fixed_population: tuple[tuple[Probability, ...], ...] = ()
     reset: Literal["keep", "redraw", "off"] = "keep"
-    gaze: bool = True
-    lids: bool = True
+    gaze: bool = Field(default=True, description="whether genes that turn the eyes take part")
+    lids: bool = Field(default=True, description="whether genes that close the eyes take part")
+    lateral: bool = Field(default=False, description="whether genes that move jaw and mouth sideways take part")
     excluded_genes: tuple[Annotated[str, Field(max_length=100)], ...] = ()
 
 

@@ -6,6 +6,7 @@ compares them. What is drawn ahead is corrected ahead too, and found here when i
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -18,9 +19,31 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from emogen_core.correctives.collision import CollisionResult
     from emogen_core.face.rig import Rig
 
 REMEMBERED = 4096
+
+
+@dataclass(frozen=True, slots=True)
+class Collision:
+    """What the collision stage found and left on one face, as it is stored with it; the weights hold what it did.
+
+    All values are empty for a rig without collision correctives. Depths are millimetres.
+    """
+
+    lips: bool | None = None
+    teeth: bool | None = None
+    before: float | None = None
+    after: float | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CorrectedFace:
+    """One finished face: (K,) weights of all shapes, read-only, and what collided."""
+
+    weights: NDArray[np.float32]
+    collision: Collision
 
 
 class Correction:
@@ -30,13 +53,21 @@ class Correction:
         """Take the rig whose faces are corrected."""
 
         @lru_cache(REMEMBERED)
-        def corrected(identity: str, genes: bytes) -> NDArray[np.float32]:
-            weights: NDArray[np.float32] = face_weights(rig, identity, np.frombuffer(genes)[np.newaxis]).weights[0]
-            weights.flags.writeable = False  # shared by everyone who asks for this face
-            return weights
+        def corrected(identity: str, genes: bytes) -> CorrectedFace:
+            made = face_weights(rig, identity, np.frombuffer(genes)[np.newaxis])
+            made.weights.flags.writeable = False  # shared by everyone who asks for this face
+            return CorrectedFace(made.weights[0], _collision(made.collisions))
 
         self._corrected = corrected
 
-    def weights(self, identity: str, genes: Iterable[NDArray[np.float64]]) -> NDArray[np.float32]:
-        """Return the (B, K) weights of faces given by B genomes (G,)."""
-        return np.stack([self._corrected(identity, np.ascontiguousarray(one, np.float64).tobytes()) for one in genes])
+    def faces(self, identity: str, genes: Iterable[NDArray[np.float64]]) -> list[CorrectedFace]:
+        """Return the faces given by genomes (G,)."""
+        return [self._corrected(identity, np.ascontiguousarray(one, np.float64).tobytes()) for one in genes]
+
+
+def _collision(found: CollisionResult | None) -> Collision:
+    """Return the result of a batch of one."""
+    if found is None:
+        return Collision()
+    lips, teeth = found.collided[0].tolist()
+    return Collision(lips, teeth, float(found.depth_before[0]), float(found.depth_after[0]))

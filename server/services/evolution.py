@@ -50,6 +50,7 @@ def params_of(rig: Rig, config: StudyConfig) -> SearchParams:
             rig,
             gaze=search.gaze,
             lids=search.lids,
+            lateral=search.lateral,
             excluded=search.excluded_genes,
             generations=config.generations,
             minimum=1,
@@ -117,6 +118,10 @@ class Evolution:
         places = place_order(state.seed, state.attempt, state.generation)
         return generation, self._faces(trial, generation, population, places)
 
+    def correct(self, trial: Trial, state: State) -> None:
+        """Correct the ten faces that `state` asks for; they are remembered."""
+        self.correction.faces(trial.identity, self._strategy.ask(self._params, state).genes)
+
     def ahead(self, trial: Trial) -> list[Sketch]:
         """Return what may be drawn while a person is looking: next random faces, and the start after a reset."""
         state = self.load(trial)
@@ -141,7 +146,7 @@ class Evolution:
     def _faces(
         self, trial: Trial, generation: Generation, population: Population, places: tuple[int, ...]
     ) -> list[Face]:
-        weights = self.correction.weights(trial.identity, population.genes)
+        made = self.correction.faces(trial.identity, population.genes)
         settings = settings_of(self.config)
         return [
             Face(
@@ -153,18 +158,19 @@ class Evolution:
                 parents=list(population.parents[slot - 1]),
                 identity=trial.identity,
                 genes=pack_genes(population.genes[slot - 1]),
-                weights=pack_weights(weights[slot - 1]),
-                portrait_key=self.key_of(trial.identity, weights[slot - 1], settings),
+                weights=pack_weights(one.weights),
+                portrait_key=self.key_of(trial.identity, one.weights, settings),
+                collided_lips=one.collision.lips,
+                collided_teeth=one.collision.teeth,
+                depth_before=one.collision.before,
+                depth_after=one.collision.after,
             )
-            for slot in range(1, len(weights) + 1)
+            for slot, one in enumerate(made, start=1)
         ]
 
     def _sketches(self, trial: Trial, genes: list[NDArray[np.float64]]) -> list[Sketch]:
-        if not genes:
-            return []
         settings = settings_of(self.config)
-        corrected = self.correction.weights(trial.identity, genes)
-        return [Sketch(trial.identity, weights, settings) for weights in corrected]
+        return [Sketch(trial.identity, one.weights, settings) for one in self.correction.faces(trial.identity, genes)]
 
 
 def pack_genes(genes: NDArray[np.float64]) -> bytes:

@@ -115,7 +115,7 @@ class Replay:
         _, again = self.journal.evolution(config).offer(trial, state)
         places = place_order(state.seed, state.attempt, state.generation)
         for face, made in zip(faces, again, strict=True):
-            for what in ("slot", "origin", "parents", "genes", "weights"):
+            for what in ("slot", "origin", "parents", "genes", "weights", *_collision_columns(face)):
                 expected, got = getattr(made, what), getattr(face, what)
                 if expected != got:
                     return face.slot, what, *self._told_apart(what, expected, got)
@@ -133,6 +133,12 @@ class Replay:
         at = next(i for i in range(len(names)) if expected[i * size :][:size] != got[i * size :][:size])
         wanted, found = (f"{names[at]} = {unpack(data)[at]!r}" for data in (expected, got))
         return wanted, found
+
+
+def _collision_columns(face: Face) -> tuple[str, ...]:
+    """Return the columns of the collision's result; none for a face that was stored before there were any."""
+    columns = ("collided_lips", "collided_teeth", "depth_before", "depth_after")
+    return columns if any(getattr(face, column) is not None for column in columns) else ()
 
 
 def _told(faces: Sequence[Face], choice: ChoiceRecord) -> Choice:

@@ -72,7 +72,8 @@ def _generations() -> Select[*tuple[Any, ...]]:
 def _faces() -> Select[*tuple[Any, ...]]:
     columns = (
         Face.id.label("face"), Face.slot, Face.place, Face.origin, Face.parents, Face.identity, Face.portrait_key,
-        Face.genes, Face.weights, Participation.rig_hash, ChoiceRecord.selected.label("_selected"),
+        Face.genes, Face.weights, Face.collided_lips, Face.collided_teeth, Face.depth_before.label("depth_before_mm"),
+        Face.depth_after.label("depth_after_mm"), Participation.rig_hash, ChoiceRecord.selected.label("_selected"),
         ChoiceRecord.elite_face_id.label("_elite"),
     )  # fmt: skip
     return (

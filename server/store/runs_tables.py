@@ -81,7 +81,11 @@ class Generation(Base):
 
 
 class Face(Base):
-    """One face: genes (float64) and weights of all shapes (float32), little-endian, in the rig's order."""
+    """One face: genes (float64) and weights of all shapes (float32), little-endian, in the rig's order.
+
+    Which types collided, and the greatest depth in millimetres before and after the correction, whose weights are the
+    last eight of all weights. Empty on a rig without collision correctives and on faces older than these columns.
+    """
 
     __tablename__ = "faces"
     __table_args__ = (UniqueConstraint("generation_id", "slot"), UniqueConstraint("generation_id", "place"))
@@ -96,6 +100,10 @@ class Face(Base):
     genes: Mapped[bytes]
     weights: Mapped[bytes]
     portrait_key: Mapped[str] = mapped_column(index=True)
+    collided_lips: Mapped[bool | None]
+    collided_teeth: Mapped[bool | None]
+    depth_before: Mapped[float | None]
+    depth_after: Mapped[float | None]
 
 
 class ChoiceRecord(Base):

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from emogen_core.correctives.collision.rays import OUT, UP, Target
+from emogen_core.correctives.collision.rays import NEGATIVE, OUT, UP, Target
 from emogen_core.correctives.collision.regions import LIPS, TEETH
 
 if TYPE_CHECKING:
@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from emogen_core.correctives.collision.rays import Hits
 
 TOLERANCE = 0.1
-# The axis and direction of each type's negative ray.
-_NEGATIVE = {LIPS: (UP, 1), TEETH: (OUT, -1)}
+# The axis of each type's negative ray: `LIPS`, `TEETH`.
+_AXIS = np.array([UP, OUT])
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,52 +88,49 @@ def detect(
         tolerance: millimetres that do not count.
     """
     target = Target(patch, triangles)
-    lips, lips_worst = _contacts(target, anchors, kind == LIPS, _NEGATIVE[LIPS], tolerance)
-    teeth, teeth_worst = _contacts(target, anchors, kind == TEETH, _NEGATIVE[TEETH], tolerance)
-    return Detection(lips, teeth, (lips_worst, teeth_worst))
+    axis = _AXIS[kind]
+    mine = target.ahead(anchors, axis)
+    hits = target.cross(anchors[mine], axis[mine], negative=True)
+    ray = hits.along(NEGATIVE[axis[mine]])
+    leaving = ray.leaves(ray.first)
+    # Only anchors whose negative ray can give a pair are sampled along the other rays.
+    suspects = np.flatnonzero(leaving)
+    within = suspects[_within(target, anchors[mine[suspects]])]
+    through = np.flatnonzero(~leaving & (ray.count == 2) & ray.leaves(ray.second))
+    pairs = [(within, ray.first[within]), (through, ray.second[through])]
+    lips, teeth = (_contacts(hits, mine, _of(pairs, kind[mine] == own), tolerance) for own in (LIPS, TEETH))
+    return Detection(lips[0], teeth[0], (lips[1], teeth[1]))
+
+
+def _of(
+    pairs: list[tuple[NDArray[np.intp], NDArray[np.intp]]], own: NDArray[np.bool_]
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return the hits within and through of one type's anchors."""
+    within, through = (hit[own[anchor]] for anchor, hit in pairs)
+    return within, through
 
 
 def _contacts(
-    target: Target,
-    anchors: NDArray[np.float64],
-    own: NDArray[np.bool_],
-    negative: tuple[int, int],
-    tolerance: float,
+    hits: Hits, mine: NDArray[np.intp], pairs: tuple[NDArray[np.intp], NDArray[np.intp]], tolerance: float
 ) -> tuple[Contacts, float]:
-    """Return the pairs of one type, its negative ray given, and the greatest depth of an anchor within.
-
-    Only anchors whose negative ray can give a pair are sampled along the other rays.
-    """
-    axis, sign = negative
-    mine = np.flatnonzero(own & target.ahead(anchors, axis, sign))
-    hits = target.cross(anchors[mine], axis, sign)
-    ray = hits.along(sign)
-    leaving = ray.leaves(ray.first)
-    suspects = np.flatnonzero(leaving)
-    within = suspects[_within(target, anchors[mine[suspects]])]
-    worst = float(np.abs(hits.distance[ray.first[within]]).max(initial=0))
-    if worst <= tolerance:
-        return _pairs(hits, mine, np.zeros(0, np.intp)), worst
-    through = ~leaving & (ray.count == 2) & ray.leaves(ray.second)
-    pairs = np.concatenate([ray.first[within], ray.second[through]])
-    return _pairs(hits, mine, pairs[np.abs(hits.distance[pairs]) > tolerance]), worst
+    """Return the pairs of one type, given its hits within and through, and the greatest depth of an anchor within."""
+    within, through = pairs
+    worst = float(np.abs(hits.distance[within]).max(initial=0))
+    chosen = np.concatenate([within, through]) if worst > tolerance else within[:0]
+    depth = np.abs(hits.distance[chosen])
+    chosen, depth = chosen[depth > tolerance], depth[depth > tolerance]
+    return Contacts(mine[hits.anchor[chosen]], hits.face[chosen], hits.corners[chosen], depth), worst
 
 
 def _within(target: Target, points: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return (n,) whether (n, 3) points are within the lower lip."""
-    within = np.zeros(len(points), bool)
     if not len(points):
-        return within
-    parity = np.ones(len(points), bool)
-    for axis in (UP, OUT):
-        hits = target.cross(points, axis)
-        ahead, back = hits.along(1), hits.along(-1)
-        leaves = ahead.leaves(ahead.first)
-        within |= leaves & back.leaves(back.first)
-        parity &= leaves & (ahead.count % 2 == 1)
-    return within | parity
-
-
-def _pairs(hits: Hits, mine: NDArray[np.intp], chosen: NDArray[np.intp]) -> Contacts:
-    anchor, depth = mine[hits.anchor[chosen]], np.abs(hits.distance[chosen])
-    return Contacts(anchor, hits.face[chosen], hits.corners[chosen], depth)
+        return np.zeros(0, bool)
+    hits = target.cross(np.concatenate([points, points]), np.repeat([UP, OUT], len(points)))
+    ahead, back = hits.along(1), hits.along(-1)
+    leaves = ahead.leaves(ahead.first)
+    between = leaves & back.leaves(back.first)
+    odd = leaves & (ahead.count % 2 == 1)
+    # Rows: along UP, along OUT.
+    within: NDArray[np.bool_] = between.reshape(2, -1).any(0) | odd.reshape(2, -1).all(0)
+    return within

@@ -71,7 +71,8 @@ class CollisionModel:
     def half(self) -> CollisionModel:
         """The same mouth with the left half's anchors only."""
         left = np.flatnonzero(self.anchors[:, 0] > 0)
-        offsets = self.anchor_offsets[:, left]
+        # Contiguous: an indexed copy keeps another order in memory, and every face would be copied again.
+        offsets = np.ascontiguousarray(self.anchor_offsets[:, left])
         return replace(self, kind=self.kind[left], anchors=self.anchors[left], anchor_offsets=offsets)
 
     @cached_property
@@ -123,7 +124,7 @@ def _model(rig: Rig, identity: str, anchors: Anchors) -> CollisionModel:
         kind=anchors.kind,
         patch=neutral[patch],
         anchors=anchors.sample(neutral[None])[0],
-        patch_offsets=offsets[:, patch],
+        patch_offsets=np.ascontiguousarray(offsets[:, patch]),
         anchor_offsets=anchors.sample(offsets).astype(np.float32),
     )
 

@@ -7,7 +7,7 @@ from emogen_core.correctives.collision import solve_collisions
 from emogen_core.correctives.pipeline import face_weights, shape_weights
 from emogen_core.errors import InvalidInputError
 from emogen_core.face.bundled import load_bundled_rig
-from emogen_core.rigs.check import random_genes
+from emogen_core.rigs.random_faces import random_genes
 from tests.rig_factory import small_rig
 
 
@@ -39,6 +39,21 @@ def test_what_collides_depends_on_the_head():
     assert face_weights(rig, "male", genes).weights.tolist() != face_weights(rig, "female", genes).weights.tolist()
     with pytest.raises(InvalidInputError, match="identity"):
         face_weights(rig, "nobody", genes)
+
+
+@pytest.mark.parametrize(
+    ("genes", "said"),
+    [
+        (np.zeros((1, 7)), r"genes: expected shape \(faces, 8\), got \(1, 7\)"),
+        (np.zeros(8), r"genes: expected shape \(faces, 8\), got \(8,\)"),
+        (np.full((1, 8), np.nan), "genes: expected finite values in .0, 1., got nan"),
+        (np.full((1, 8), 1.5), "got 1.5"),
+        (np.full((1, 8), "smile"), "genes: expected numbers"),
+    ],
+)
+def test_bad_genes_are_refused_with_what_was_got(genes, said):
+    with pytest.raises(InvalidInputError, match=said):
+        face_weights(small_rig(), "male", genes)
 
 
 def test_a_face_does_not_depend_on_its_batch():

@@ -178,3 +178,25 @@ def test_a_name_that_could_leave_the_file_is_not_written(tmp_path: Path, name: s
 def test_a_document_that_json_cannot_hold_is_not_written(tmp_path: Path, document: dict[str, Any]) -> None:
     with pytest.raises(RigFileError, match="document"):
         write_container(tmp_path / "x", "rig", 1, document, {})
+
+
+def test_a_folder_is_not_overwritten_and_nothing_is_left_behind(tmp_path: Path) -> None:
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(RigFileError, match="folder: expected a file to write, got 'a folder'"):
+        write_container(tmp_path / "folder", "rig", 1, DOCUMENT, ARRAYS)
+    with pytest.raises(RigFileError, match="expected a folder to write to"):
+        write_container(tmp_path / "none" / "x.rig", "rig", 1, DOCUMENT, ARRAYS)
+    assert [path.name for path in tmp_path.rglob("*")] == ["folder"]
+
+
+def test_a_failed_write_leaves_the_old_file_and_nothing_else(good: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = good.read_bytes()
+
+    def full(_: Path, data: bytes) -> int:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    with pytest.raises(RigFileError, match=r"good\.rig: expected to be written, got 'No space left on device'"):
+        write_container(good, "rig", 3, {"other": 1}, ARRAYS)
+    assert good.read_bytes() == before
+    assert not good.with_name("good.rig.part").exists()

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import random
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from emogen_core.correctives.pipeline import face_weights
 from emogen_core.errors import RigFileError
 from emogen_core.face.container import read_container, write_container
+from emogen_core.face.evaluate import vertices
 from emogen_core.face.rig import Adjustment, Combination, EmotionSet
 from emogen_core.face.rig_file import KIND, STEPS_PER_MILLIMETRE, VERSION, load_rig, save_rig
+from tests.emogen_core.face.damage import damaged_bytes, damaged_content
 from tests.rig_factory import VERTICES, small_rig
 
 STEP = 1 / STEPS_PER_MILLIMETRE
@@ -121,6 +125,13 @@ def rewritten(tmp_path, change):
         lambda _, a: a.update({"offset/vertex": a["offset/vertex"] + VERTICES}),
         lambda _, a: a.update({"offset/vertex": -a["offset/vertex"] - 1}),
         lambda _, a: a.update({"adjusted/male/shapes": np.array([-1, 0], np.int32)}),
+        lambda _, a: a.update({"adjusted/male/shapes": np.array([1, 1], np.int32)}),
+        lambda _, a: a.update({"adjusted/male/shapes": a["adjusted/male/shapes"][:, None]}),
+        lambda _, a: a.update({"triangles": a["triangles"].astype(np.float64)}),
+        lambda _, a: a.update({"triangles": a["triangles"].ravel()}),
+        lambda _, a: a.update({"neutral/male": a["neutral/male"].astype(np.float32)}),
+        lambda _, a: a.update({"region/lips": a["region/lips"] > 2}),
+        lambda d, a: (d.update(vertices=2**20), a.update({"offset/count": np.zeros(100, np.int32)})),
     ],
 )
 def test_a_file_whose_hash_fits_but_whose_content_does_not_is_refused(tmp_path, change):
@@ -132,3 +143,26 @@ def test_a_look_is_not_a_rig(tmp_path):
     write_container(tmp_path / "a.look", "look", VERSION, {}, {})
     with pytest.raises(RigFileError, match="expected kind rig"):
         load_rig(tmp_path / "a.look")
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    path = tmp_path_factory.mktemp("rig") / "whole.rig"
+    save_rig(full_rig(), path)
+    return path
+
+
+@pytest.mark.parametrize("damage", [damaged_bytes, damaged_content])
+def test_a_damaged_rig_is_refused_in_one_line_or_draws(whole, tmp_path, damage):
+    """A short run of what was run for thousands of seeds: docs/rig.md."""
+    for seed in range(150):
+        damage(whole, tmp_path / "bad.rig", random.Random(seed))
+        try:
+            rig = load_rig(tmp_path / "bad.rig")
+        except RigFileError as error:
+            assert "expected" in str(error)
+            assert "\n" not in str(error)
+            continue
+        for identity in rig.identities:
+            weights = face_weights(rig, identity, np.full((1, len(rig.genes)), 0.5)).weights
+            assert np.isfinite(vertices(rig, identity, weights)).all()

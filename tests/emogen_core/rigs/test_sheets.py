@@ -4,26 +4,48 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from emogen_core.errors import InvalidInputError
 from emogen_core.face.bundled import load_bundled_rig
-from emogen_core.rigs.sheets import emotion_genes, make_sheets
+from emogen_core.rigs.contact import FACE, MOUTH, PORTRAIT, arranged, captioned
+from emogen_core.rigs.sheets import FOUR, SHEETS, emotion_genes, make_sheets
+
+RIG = load_bundled_rig()
+TILES = {"identities": 14, "random": 20, "emotions": 7 * len(FOUR)}
 
 
 @pytest.mark.gl
-def test_all_sheets_are_drawn(tmp_path):
-    paths = make_sheets(tmp_path / "new" / "folder")
-    assert [p.name for p in paths] == ["genes.jpg", "identities.jpg", "emotions.jpg", "random.jpg"]
-    rig = load_bundled_rig()
-    tiles = {"genes": 2 * (1 + len(rig.genes)), "identities": 14, "emotions": 7 * 14, "random": 20}
+def test_sheets_are_drawn(tmp_path):
+    paths = make_sheets(tmp_path / "new" / "folder", only=list(TILES))
+    assert [path.stem for path in paths] == list(TILES)
     for path in paths:
         with Image.open(path) as sheet:
             pixels = np.asarray(sheet.convert("RGB"))
         assert pixels.std() > 20
-        width, height = (220, 282) if path.stem in {"genes", "emotions"} else (320, 402)
-        assert pixels.shape[0] * pixels.shape[1] >= tiles[path.stem] * width * height
+        assert pixels.shape[0] * pixels.shape[1] >= TILES[path.stem] * 300 * 300
+
+
+def test_an_unknown_sheet_is_refused(tmp_path):
+    with pytest.raises(InvalidInputError, match=r"'genes'.*'collisions'.*got .'nose'"):
+        make_sheets(tmp_path, only=["nose"])
+    assert {"genes", "identities", "emotions", "random", "collisions"} <= set(SHEETS)
 
 
 def test_an_emotion_sets_its_genes_and_no_others():
-    rig = load_bundled_rig()
-    genes = emotion_genes(rig, "happy", 0.5)
-    assert genes[rig.gene_names.index("mouthSmile")] == 0.5
-    assert (genes > 0).sum() == len(rig.emotion_sets["happy"].genes)
+    genes = emotion_genes(RIG, "happy", 0.5)
+    assert genes[RIG.gene_names.index("mouthSmile")] == 0.5
+    assert (genes > 0).sum() == len(RIG.emotion_sets["happy"].genes)
+
+
+@pytest.mark.parametrize("frame", [FACE, MOUTH, PORTRAIT])
+def test_a_frame_is_as_wide_as_it_says(frame):
+    settings = frame.settings
+    cut = frame.cut(np.zeros((settings.height, settings.width, 3), np.uint8))
+    assert abs(cut.shape[1] - frame.width) <= 1
+    assert frame.width >= 260
+
+
+def test_tiles_fill_rows_from_the_left():
+    tiles = [captioned([np.full((10, 20, 3), value, np.uint8)] * 2, "") for value in (10, 20, 30)]
+    sheet = np.asarray(arranged(tiles, 2))
+    assert sheet.shape == (2 * tiles[0].height, 40, 3)
+    assert [sheet[0, 0, 0], sheet[0, 20, 0], sheet[tiles[0].height, 0, 0]] == [10, 20, 30]

@@ -61,12 +61,37 @@ def test_doctor_tells_where_everything_is(data_dir):
 
 
 def test_rig_check_measures(data_dir):
-    done = emogen(data_dir, "rig", "check", "--faces", "4", "--json")
-    assert done.returncode == 0, done.stderr
-    assert json.loads(done.stdout)
+    sample = ["rig", "check", "--faces", "4", "--identity", "male"]
+    done = emogen(data_dir, *sample, "--json")
+    assert (done.returncode, done.stderr) == (0, "male\n")
+    assert list(json.loads(done.stdout)["identities"]) == ["male"]
+    assert "| `male` " in emogen(data_dir, *sample).stdout
+    wrong = emogen(data_dir, "rig", "check", "--identity", "nobody")
+    assert wrong.returncode == 1
+    assert wrong.stderr.startswith("identity: expected one of [")
+    assert wrong.stderr.count("\n") == 1
 
 
 def test_help_names_every_command(data_dir):
     said = emogen(data_dir, "--help").stdout
     for command in ("serve", "doctor", "rig", "simulate", "export", "bench"):
         assert command in said
+
+
+@pytest.mark.parametrize(
+    ("command", "said"),
+    [
+        (["rig", "build", "--out", "{folder}"], "folder: expected a file to write, got 'a folder'\n"),
+        (["rig", "build", "--look", "{folder}"], "folder: expected a file to write, got 'a folder'\n"),
+        (["rig", "build", "--out", "{folder}/none/x"], "x: expected a folder to write to, got '{folder}/none'\n"),
+        (["rig", "sheet", "--out", "{file}"], "--out: expected a folder to write to, got '{file} (File exists)'\n"),
+    ],
+)
+def test_a_place_that_cannot_be_written_is_one_sentence(data_dir, tmp_path, command, said):
+    folder, file = tmp_path / "folder", tmp_path / "file"
+    folder.mkdir()
+    file.write_text("mine")
+    done = emogen(data_dir, *(word.format(folder=folder, file=file) for word in command))
+    assert (done.returncode, done.stderr) == (1, said.format(folder=folder, file=file))
+    assert sorted(tmp_path.rglob("*")) == [file, folder]
+    assert file.read_text() == "mine"

@@ -34,10 +34,10 @@ def box():
     x, y, z = np.array([40.0, 0, 0]), np.array([0, 10.0, 0]), np.array([0, 0, 10.0])
     low = np.array([-20.0, -10, 0])
     sides = [plate(low + y, x, z), plate(low, x, z), plate(low + z, x, y), plate(low, x, y)]
-    outward = (1, 0, 0, 1)
+    # plate() looks along `along x across`: top and bottom would look down, front and back would look out of the face.
+    turned = (True, False, False, True)
     points = [p for p, _ in sides]
-    faces = [f if flip == 0 else f[:, ::-1] for (_, f), flip in zip(sides, outward, strict=True)]
-    return points, [faces[0], faces[1][:, ::-1], faces[2], faces[3]]
+    return points, [f[:, ::-1] if turn else f for (_, f), turn in zip(sides, turned, strict=True)]
 
 
 def mirror_of(points):

@@ -1,10 +1,14 @@
 """Geometry whose answers are known: plates pushed into a box."""
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from emogen_core.correctives.collision import dense_depth, solve_collisions
+from emogen_core.correctives.collision.detect import detect
+from emogen_core.correctives.collision.model import collision_model
+from emogen_core.correctives.collision.regions import LIPS, TEETH
 from emogen_core.correctives.collision.solve import MARGIN
 from tests.emogen_core.correctives.collision.boxes import box_rig, weights_of
 
@@ -68,6 +72,47 @@ def test_both_types_are_solved_together():
 def test_one_side_is_corrected_on_that_side():
     weights = solve(lean=0.7)[0].weights[0]
     assert weights[0] > 10 * max(weights[3], 1e-3)
+
+
+def found(kind, *points):
+    """What is found of anchors at these places about the box: x in [-20, 20], y in [-10, 0], z in [0, 10]."""
+    patch, _ = collision_model(RIG, "box").evaluate(weights_of(RIG)[0])
+    places = np.array(points, float)
+    return detect(places, np.full(len(places), kind), patch, collision_model(RIG, "box").triangles)
+
+
+@pytest.mark.parametrize(
+    ("point", "lips", "teeth"),
+    [
+        ((3.3, -2, 4), 2, 4),  # within: 2 under the top, 4 in front of the inner face
+        ((3.3, 0.5, 4), 0, 0),  # above
+        ((3.3, -2, -1), 0, 0),  # behind
+        ((3.3, -11, 4), 0, 0),  # below: through for the lips, which alone declares nothing
+        ((3.3, -2, 11), 0, 0),  # in front: through for the teeth, which alone declares nothing
+        ((25, -2, 4), 0, 0),  # beside
+        ((3.3, -0.05, 4), 0, 4),  # a touch is none for the lips
+    ],
+)
+def test_a_point_is_within_only_inside_the_box(point, lips, teeth):
+    for kind, depth in ((LIPS, lips), (TEETH, teeth)):
+        contacts = (found(kind, point).lips, found(kind, point).teeth)[kind]
+        assert contacts.depth.tolist() == ([pytest.approx(depth)] if depth else [])
+
+
+@pytest.mark.parametrize(("kind", "beyond", "depth"), [(LIPS, (3.3, -11, 4), 11), (TEETH, (3.3, -2, 11), 11)])
+def test_what_went_through_gives_a_constraint_once_something_is_within(kind, beyond, depth):
+    detected = found(kind, (-3.3, -2, 4), beyond)
+    contacts = (detected.lips, detected.teeth)[kind]
+    assert contacts.anchor.tolist() == [0, 1]
+    assert contacts.depth[1] == pytest.approx(depth)
+    assert detected.depth == contacts.depth[0]
+
+
+def test_the_box_is_closed_and_looks_outward():
+    patch, _ = collision_model(RIG, "box").evaluate(weights_of(RIG)[0])
+    corners = patch[collision_model(RIG, "box").triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    assert ((normals * (corners.mean(1) - (0, -5, 5))).sum(1) > 0).all()
 
 
 @given(press=st.floats(0, 1), bite=st.floats(0, 1))
