@@ -11,6 +11,10 @@ class InvalidInputError(EmogenError, ValueError):
     """An argument is not what the function needs; the message says what was expected and what was got."""
 
 
+class IdentityError(InvalidInputError):
+    """An identity document is not one, contradicts itself, or may not be used; the message names the field."""
+
+
 class RigFileError(EmogenError):
     """A rig or look file is damaged, foreign or of another version."""
 

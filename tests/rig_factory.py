@@ -1,10 +1,11 @@
 """A small synthetic rig: quick to evaluate, with every kind of thing that a real one has."""
 
 import hashlib
+from dataclasses import replace
 
 import numpy as np
 
-from emogen_core.face.rig import Combination, EmotionSet, Gene, Rig
+from emogen_core.face.rig import Adjustment, Combination, EmotionSet, Gene, Rig
 
 VERTICES = 24
 
@@ -23,7 +24,7 @@ def small_rig(seed: int = 7, genes: int = 8) -> Rig:
         for i, (name, pair) in enumerate(zip(names, pairs, strict=True))
     )  # fmt: skip
     sets = {
-        word: EmotionSet(tuple(names[i : i + 4]), (), "invented")
+        word: EmotionSet(tuple(names[i : i + 4]), (1.0, 0.8, 0.6, 0.4), (), "invented")
         for i, word in enumerate(("happy", "sad", "angry", "fearful"))
     }
     shapes = len(core) + len(combinations) + 1
@@ -40,4 +41,14 @@ def small_rig(seed: int = 7, genes: int = 8) -> Rig:
         triangles=np.array([[i, i + 1, i + 2] for i in range(VERTICES - 2)], np.int32),
         parts={"skin": (0, VERTICES - 2)},
         hash=hashlib.sha256(f"small {seed} {genes}".encode()).hexdigest(),
+    )
+
+
+def full_rig():
+    change = Adjustment(np.array([1, 4]), np.full((2, VERTICES, 3), 0.25, np.float32))
+    return replace(
+        small_rig(),
+        regions={"lips": np.arange(5, dtype=np.int32)},
+        mirror=np.arange(VERTICES, dtype=np.int32),
+        adjustments={"male": change},
     )

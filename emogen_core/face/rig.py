@@ -56,9 +56,13 @@ class Combination:
 
 @dataclass(frozen=True, slots=True)
 class EmotionSet:
-    """The genes that build one emotion, with the published source of the choice."""
+    """The genes that build one emotion, with the published source of the choice.
+
+    ``strengths`` has one weight in (0, 1] a gene: at these the face shows the emotion's prototype at full strength.
+    """
 
     genes: tuple[str, ...]
+    strengths: tuple[float, ...]
     action_units: tuple[str, ...]
     source: str
 
@@ -145,6 +149,21 @@ class Rig:
         for row, gene in enumerate(self.genes):
             matrix[row, [index[member] for member in gene.members]] = 1
         return matrix
+
+    def emotion_genes(self, emotion: str, strength: float = 1.0) -> NDArray[np.float64]:
+        """Return the (G,) genome of an emotion's prototype, all its weights times ``strength`` in [0, 1].
+
+        Raises:
+            InvalidInputError: the rig has no such emotion, or a strength outside [0, 1].
+        """
+        if emotion not in self.emotion_sets:
+            raise InvalidInputError(f"emotion: {expected(f'one of {sorted(self.emotion_sets)}', emotion)}")
+        if not 0 <= strength <= 1:
+            raise InvalidInputError(f"strength: {expected('a number in [0, 1]', strength)}")
+        kit = self.emotion_sets[emotion]
+        genes = np.zeros(len(self.genes))
+        genes[self.gene_indices(kit.genes)] = strength * np.array(kit.strengths)
+        return genes
 
     def neutral(self, identity: str) -> NDArray[np.float32]:
         """Return the (N, 3) neutral mesh of an identity.

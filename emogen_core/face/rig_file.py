@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 KIND = "rig"
-VERSION = 1
+# Version 2 has a strength for every gene of an emotion set.
+VERSION = 2
 # Positions and offsets are stored in steps of 1/512 mm: far below what can be seen, and reaching 64 mm in 16 bits.
 STEPS_PER_MILLIMETRE = 512
 # Rounds the exact ties that halves and quarters of the source's decimals make, so the last bit of a product of
@@ -90,6 +91,8 @@ def _check_names(rig: Rig) -> None:
         _among(f"parents of {combination.name}", combination.parents, rig.gene_names)
     for emotion, kit in rig.emotion_sets.items():
         _among(f"genes of {emotion}", kit.genes, rig.gene_names)
+        fits = len(kit.strengths) == len(kit.genes) and all(0 < value <= 1 for value in kit.strengths)
+        _need(fits, f"{len(kit.genes)} strengths in (0, 1] of {emotion}", kit.strengths)
 
 
 def _check_parts(rig: Rig) -> None:
@@ -158,7 +161,13 @@ def _document(rig: Rig) -> dict[str, Any]:
         "combinations": [{"name": c.name, "parents": list(c.parents), "family": c.family} for c in rig.combinations],
         "collision_shapes": list(rig.collision_shapes),
         "emotion_sets": [
-            {"name": name, "genes": list(kit.genes), "action_units": list(kit.action_units), "source": kit.source}
+            {
+                "name": name,
+                "genes": list(kit.genes),
+                "strengths": list(kit.strengths),
+                "action_units": list(kit.action_units),
+                "source": kit.source,
+            }
             for name, kit in rig.emotion_sets.items()
         ],
         "identities": list(rig.neutrals),
@@ -235,7 +244,8 @@ def _combination(entry: dict[str, Any]) -> Combination:
 
 
 def _emotion(entry: dict[str, Any]) -> EmotionSet:
-    return EmotionSet(_strings(entry["genes"]), _strings(entry["action_units"]), str(entry["source"]))
+    strengths = tuple(float(value) for value in entry["strengths"])
+    return EmotionSet(_strings(entry["genes"]), strengths, _strings(entry["action_units"]), str(entry["source"]))
 
 
 def _adjustment(name: str, arrays: Mapping[str, NDArray[Any]], vertices: int) -> Adjustment:

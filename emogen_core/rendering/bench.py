@@ -17,99 +17,124 @@ from emogen_core.rendering.protocol import RenderSettings
 from emogen_core.rendering.setup import look_for
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from numpy.typing import NDArray
 
     from emogen_core.face.rig import Rig
     from emogen_core.rendering.pyrender_backend import PyrenderRenderer
 
-STEPS = ("blend", "normals", "shade", "upload", "draw and read", "encode")
+    Correct = Callable[[Rig, str, NDArray[np.float64]], NDArray[np.float32]]
+    Batch = tuple[NDArray[np.float64], NDArray[np.float32]]
+
+STEPS = ("correct", "blend", "normals", "attributes", "upload", "draw", "read", "encode")
+# As the search's random faces: so many of the enabled genes, each uniform in [0, 1].
+_RANDOM_GENES = 6
+_OFF = frozenset({"disabled", "lateral", "gaze"})
+_WARM_UP = 2
 
 
-def bench_render(faces: int = 10, size: int = 384, rounds: int = 15, workers: int = 2) -> dict[str, Any]:
+def bench_render(  # noqa: PLR0913, PLR0917 - all have defaults but the first
+    correct: Correct, faces: int = 10, size: int = 384, rounds: int = 15, workers: int = 2, identity: str = ""
+) -> dict[str, Any]:
     """Measure drawing on this machine.
 
     Args:
+        correct: (rig, identity, (B, G) genes) -> (B, K) weights; the collision stage is part of it.
         faces: how many are asked for at once.
         size: width and height of a portrait, pixels.
-        rounds: how often; the first two are not counted.
+        rounds: how often; two more are drawn before and not counted.
         workers: drawing processes.
+        identity: who is drawn; by default the rig's first.
 
     Returns:
-        ``pool_ms``: median, min and max of the wall time for all faces through a pool; ``step_core_ms``: for each of
-        `STEPS` and their ``sum``, processor time a face in one process, the median over the rounds; ``png_bytes``; and
-        what was measured on.
+        ``pool_ms``: min, median, p95 and max of the wall time from weights to PNG for all faces through a pool;
+        ``step_core_ms``: for each of `STEPS` and their ``sum``, processor time a face in one process, the median over
+        the rounds (``correct`` is done before faces are asked for, so it is not in ``pool_ms``); ``png_bytes``; and
+        what was measured on, with the machine's load before and after.
 
     Raises:
-        InvalidInputError: an argument is below 1.
+        InvalidInputError: a number is below 1, or an unknown identity.
         MissingGLError: this machine cannot draw.
     """
     if min(faces, size, rounds, workers) < 1:
         raise InvalidInputError(f"bench: {expected('positive numbers', (faces, size, rounds, workers))}")
-    rig = load_bundled_rig()
-    settings = RenderSettings(size, size)
-    batches = [_random_faces(rig, faces, seed) for seed in range(rounds + 2)]
-    steps, pictures, renderer = _steps(rig, batches, settings)
+    rig, load = load_bundled_rig(), _load()
+    who, settings = identity or rig.identities[0], RenderSettings(size, size)
+    rig.neutral(who)
+    genomes = [_random_genomes(rig, faces, seed) for seed in range(rounds + _WARM_UP)]
+    steps, pictures, renderer, weights = _steps(rig, who, genomes, correct, settings)
     return {
         "faces": faces,
         "size": size,
         "rounds": rounds,
         "workers": workers,
+        "identity": who,
         "cores": len(os.sched_getaffinity(0)),
-        "load": round(os.getloadavg()[0], 2),
         "renderer": renderer,
-        "pool_ms": _pool(rig, batches, settings, workers),
+        "pool_ms": _pool(who, weights, settings, workers),
         "step_core_ms": steps,
         "png_bytes": pictures,
+        "load": {"before": load, "after": _load()},
     }
 
 
-def _random_faces(rig: Rig, count: int, seed: int) -> NDArray[np.float32]:
-    """Return (count, K) weights with six shapes set, as the search's random faces have."""
+def _random_genomes(rig: Rig, count: int, seed: int) -> NDArray[np.float64]:
+    """Return (count, G) genes with a few set."""
     rng = np.random.default_rng(seed)
-    weights = np.zeros((count, len(rig.shape_names)), np.float32)
-    for row in weights:
-        row[rng.choice(len(rig.core_shapes), min(6, len(rig.core_shapes)), replace=False)] = rng.random(6)
-    return weights
+    enabled = [i for i, gene in enumerate(rig.genes) if not gene.flags & _OFF]
+    genes = np.zeros((count, len(rig.genes)))
+    for row in genes:
+        chosen = rng.choice(enabled, min(_RANDOM_GENES, len(enabled)), replace=False)
+        row[chosen] = rng.random(len(chosen))
+    return genes
 
 
-def _pool(rig: Rig, batches: list[NDArray[np.float32]], settings: RenderSettings, workers: int) -> dict[str, float]:
+def _pool(
+    identity: str, batches: list[NDArray[np.float32]], settings: RenderSettings, workers: int
+) -> dict[str, float]:
     times = []
     with RenderPool(workers) as pool:
         for batch in batches:
             start = time.perf_counter()
-            futures = [pool.submit(rig.identities[0], row, settings) for row in batch]
+            futures = [pool.submit(identity, row, settings) for row in batch]
             for future in futures:
                 future.result()
             times.append((time.perf_counter() - start) * 1000)
-    return {"median": _ms(np.median(times[2:])), "min": _ms(min(times[2:])), "max": _ms(max(times[2:]))}
+    counted = np.array(times[_WARM_UP:])
+    named = {"min": counted.min(), "median": np.median(counted), "p95": np.percentile(counted, 95)}
+    return {name: _ms(value) for name, value in {**named, "max": counted.max()}.items()}
 
 
-def _steps(rig: Rig, batches: list[NDArray[np.float32]], settings: RenderSettings) -> tuple[dict[str, float], int, str]:
-    """Return processor time a face for each step, the mean size of a PNG, and the GL renderer's name."""
-    from emogen_core.rendering.pyrender_backend import PyrenderRenderer, gl_renderer  # noqa: PLC0415
-
+def _steps(
+    rig: Rig, identity: str, genomes: list[NDArray[np.float64]], correct: Correct, settings: RenderSettings
+) -> tuple[dict[str, float], int, str, list[NDArray[np.float32]]]:
+    """Return processor time a face for each step, a PNG's mean size, the GL renderer's name, and the weights."""
     # As in the pool's workers; read when GL is opened.
     os.environ.setdefault("LP_NUM_THREADS", "0")
+    from emogen_core.rendering.pyrender_backend import PyrenderRenderer, gl_renderer  # noqa: PLC0415
+
     renderer = PyrenderRenderer(rig, look_for(rig))
-    laps: list[list[float]] = []
+    laps: list[NDArray[np.floating]] = []
     sizes: list[int] = []
-    for batch in batches:
-        *spent, size = zip(*_laps(renderer, rig, batch, settings), strict=True)
-        laps.append([sum(step) / len(batch) * 1000 for step in spent])
+    batches: list[NDArray[np.float32]] = []
+    for genes in genomes:
+        start = time.process_time()
+        batches.append(correct(rig, identity, genes))
+        corrected = (time.process_time() - start) / len(genes)
+        *spent, size = zip(*_laps(renderer, rig, identity, batches[-1], settings), strict=True)
+        laps.append(np.array([corrected, *np.mean(spent, axis=1)]) * 1000)
         sizes += size
     renderer.close()
-    medians = dict(zip(STEPS, np.median(laps[2:], axis=0).tolist(), strict=True))
+    medians = dict(zip(STEPS, np.median(laps[_WARM_UP:], axis=0).tolist(), strict=True))
     rounded = {name: _ms(value) for name, value in {**medians, "sum": sum(medians.values())}.items()}
-    return rounded, round(float(np.mean(sizes))), gl_renderer()
+    return rounded, round(float(np.mean(sizes))), gl_renderer(), batches
 
 
 def _laps(
-    renderer: PyrenderRenderer, rig: Rig, batch: NDArray[np.float32], settings: RenderSettings
+    renderer: PyrenderRenderer, rig: Rig, identity: str, batch: NDArray[np.float32], settings: RenderSettings
 ) -> Iterator[tuple[float, ...]]:
-    """Yield for each face the seconds of processor time of `STEPS` and the bytes of its PNG."""
-    identity = rig.identities[0]
+    """Yield for each face the seconds of processor time of all `STEPS` but the first, and the bytes of its PNG."""
     start = time.process_time()
     meshes = vertices(rig, identity, batch)
     blend = (time.process_time() - start) / len(batch)
@@ -121,11 +146,17 @@ def _laps(
         marks.append(time.process_time())
         renderer.upload(rows)
         marks.append(time.process_time())
-        picture = renderer.shoot(identity, settings)
+        renderer.paint(identity, settings)
+        marks.append(time.process_time())
+        picture = renderer.read()
         marks.append(time.process_time())
         png = encode_png(picture)
         marks.append(time.process_time())
         yield (blend, *np.diff(marks).tolist(), len(png))
+
+
+def _load() -> float:
+    return round(os.getloadavg()[0], 2)
 
 
 def _ms(value: float | np.floating[Any]) -> float:

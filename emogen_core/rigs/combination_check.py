@@ -17,8 +17,11 @@ if TYPE_CHECKING:
     from emogen_core.face.rig import Rig
 
 BATCH = 10
+# Piercing edges take a quarter of a second a face: they are counted on this many.
+PIERCED_FACES = 60
 
 _FLESH = ("skin", "mouth", "sockets")
+_FIELDS = ("flips", "folds", "stretched", "piercing")
 
 
 def combination_report(rig: Rig, identity: str, faces: int, seed: int) -> dict[str, Any]:
@@ -27,30 +30,31 @@ def combination_report(rig: Rig, identity: str, faces: int, seed: int) -> dict[s
     Args:
         rig: the face model; its parts ``skin``, ``mouth`` and ``sockets`` are judged.
         identity: the head that wears it.
-        faces: how many random faces.
+        faces: how many random faces; piercing edges are counted on the first `PIERCED_FACES`.
         seed: of the faces.
 
     Returns:
-        JSON-ready: mean flipped, folded and overstretched triangles a face without and with the correctives, by which
-        shares these fell, and how many faces have fewer or more flipped triangles with them.
+        JSON-ready: mean ``flips``, ``folds``, ``stretched`` triangles and ``piercing`` edges a face ``without`` and
+        ``with`` the correctives; ``..._fell``: by which share each did; how many faces have fewer flips
+        (``faces_better``) or more (``faces_worse``).
 
     Raises:
         InvalidInputError: an unknown identity.
     """
     genes = random_genes(rig, faces, seed)
-    gauge = Gauge(rig.neutral(identity).astype(np.float64), _flesh(rig))
+    gauge = Gauge(rig.neutral(identity).astype(np.float64), flesh(rig))
     without, corrected = (_damages(rig, identity, gauge, genes, on) for on in (False, True))
     means = {"without": _means(without), "with": _means(corrected)}
     return {
         **means,
-        "flips_fell": _fall(means, "flips"),
-        "stretched_fell": _fall(means, "stretched"),
+        **{f"{field}_fell": _fall(means["without"][field], means["with"][field]) for field in _FIELDS},
         "faces_better": sum(b.flips < a.flips for a, b in zip(without, corrected, strict=True)),
         "faces_worse": sum(b.flips > a.flips for a, b in zip(without, corrected, strict=True)),
     }
 
 
-def _flesh(rig: Rig) -> NDArray[np.int32]:
+def flesh(rig: Rig) -> NDArray[np.int32]:
+    """Return the (T, 3) triangles that are judged: skin, mouth and sockets, or all of a rig without these parts."""
     rows = [rig.triangles[slice(*rig.parts[name])] for name in _FLESH if name in rig.parts]
     return np.concatenate(rows) if rows else rig.triangles
 
@@ -59,15 +63,18 @@ def _damages(rig: Rig, identity: str, gauge: Gauge, genes: NDArray[np.float64], 
     weights = shape_weights(rig, genes)
     if not combined:
         weights[:, len(rig.core_shapes) :] = 0
-    batches = [weights[first : first + BATCH] for first in range(0, len(weights), BATCH)]
-    return [gauge.damage(m.astype(np.float64)) for batch in batches for m in vertices(rig, identity, batch)]
+    found: list[Damage] = []
+    for first in range(0, len(weights), BATCH):
+        meshes = vertices(rig, identity, weights[first : first + BATCH]).astype(np.float64)
+        found += [gauge.damage(mesh, piercing=len(found) + k < PIERCED_FACES) for k, mesh in enumerate(meshes)]
+    return found
 
 
 def _means(damages: list[Damage]) -> dict[str, float]:
-    fields = ("flips", "folds", "stretched")
-    return {name: round(float(np.mean([getattr(d, name) for d in damages])), 3) for name in fields}
+    means = {name: float(np.mean([getattr(d, name) for d in damages])) for name in _FIELDS[:3]}
+    means["piercing"] = float(np.mean([d.piercing for d in damages[:PIERCED_FACES]]))
+    return {name: round(mean, 3) for name, mean in means.items()}
 
 
-def _fall(means: dict[str, dict[str, float]], field: str) -> float:
-    without = means["without"][field]
-    return round(1 - means["with"][field] / without, 3) if without else 0.0
+def _fall(without: float, corrected: float) -> float:
+    return round(1 - corrected / without, 3) if without else 0.0

@@ -1,8 +1,8 @@
 """Shapes fitted to a head: lips that stay shut, lids that close and do not sink into the eyeball.
 
 Units were made for one head, and their linear paths know nothing of what lies below the skin. Shapes that keep the
-mouth shut are sealed once, on the default head. What moves lids is fitted on every head: closing is scaled to it, and
-vertices that would enter the eyeball at weight 1 are pushed out.
+mouth shut are sealed once, on the default head. What moves lids is fitted on every head: closing is scaled to it
+(`lids.py`), and vertices that would enter the eyeball on the way to weight 1 are pushed out.
 """
 
 from __future__ import annotations
@@ -11,16 +11,20 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.spatial import cKDTree
 
+from emogen_core.rigs.canvas import smoothstep
 from emogen_core.rigs.eyeballs import CORNEA_BULGE, CORNEA_DEGREES, GAZE_DEGREES, RADIUS
 from emogen_core.rigs.gene_table import RECIPES
-from emogen_core.rigs.lids import closing_weight
+from emogen_core.rigs.lids import EDGE, closing_factor, closing_scale, lid_rings
 from emogen_core.rigs.lips import seal_lips
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from numpy.typing import NDArray
 
-    from emogen_core.rigs.head_mesh import HeadGeometry
+    from emogen_core.rigs.topology import Topology
 
     Mesh = NDArray[np.float64]
     Meshes = dict[str, Mesh]
@@ -32,10 +36,18 @@ SHUT_GENES = (
 )  # fmt: skip
 # Genes that move lids over the eyeball.
 LID_GENES = ("lidsClose", "lidsTight", "lidsSlit", "lidUpperRaise", "gazeUp", "gazeDown", "cheekRaise", "browDown")
+CLOSING = "lidsClose"
 # Skin stays this share of the radius outside the eyeball, so that flat triangles clear it too.
 EYEBALL_MARGIN = 0.022
+# The very edge of a lid touches it.
+EDGE_MARGIN = 0.002
 
-_CLOSURE = ("lidsClose.L", "lidsClose.R")
+_NEAR = 2.2
+_CHORD_ROUNDS = 6
+# Up to here from the rims of the lids, and from here on no more, millimetres, closed lids hold still.
+_RIM_FADE = (3.0, 9.0)
+
+_CLOSURE = (f"{CLOSING}.L", f"{CLOSING}.R")
 _MEMBERS = {recipe.name: recipe.members for recipe in RECIPES}
 
 
@@ -47,12 +59,13 @@ class Head:
     eye_centre: NDArray[np.float64]
 
 
-def gene_offsets(core: Meshes) -> Meshes:
+def gene_offsets(core: Meshes, genes: tuple[str, ...] = tuple(_MEMBERS)) -> Meshes:
     """Return gene -> (N, 3) offsets of all its members together."""
-    return {name: sum((core[m] for m in members[1:]), core[members[0]]) for name, members in _MEMBERS.items()}
+    members = {name: _MEMBERS[name] for name in genes}
+    return {name: sum((core[m] for m in listed[1:]), core[listed[0]]) for name, listed in members.items()}
 
 
-def sealed_shapes(geometry: HeadGeometry, low: NDArray[np.float64], neutral: Mesh, core: Meshes) -> Meshes:
+def sealed_shapes(geometry: Topology, low: NDArray[np.float64], neutral: Mesh, core: Meshes) -> Meshes:
     """Return the core shapes with the lips of `SHUT_GENES` touching at weight 1."""
     fitted, genes = dict(core), gene_offsets(core)
     left = neutral[:, :1] > 0
@@ -62,38 +75,116 @@ def sealed_shapes(geometry: HeadGeometry, low: NDArray[np.float64], neutral: Mes
     return fitted
 
 
-def fitted_lids(geometry: HeadGeometry, head: Head, core: Meshes) -> Meshes:
-    """Return the core shapes with what moves lids fitted to a head."""
-    weight = closing_weight(geometry, head.neutral, core[_CLOSURE[0]])
-    fitted = core | {name: core[name] * weight for name in _CLOSURE}
-    genes = gene_offsets(fitted)
+def fitted_lids(geometry: Topology, head: Head, core: Meshes) -> Meshes:
+    """Return the core shapes that move lids, fitted to a head whose skin is clear of its eyeballs."""
+    closing = closed_lids(geometry, head, core)
+    fitted = {member: core[member] for gene in LID_GENES for member in _MEMBERS[gene]} | closing
+    genes = gene_offsets(fitted, LID_GENES)
     left = head.neutral[:, :1] > 0
     for gene in LID_GENES:
         _spread(fitted, gene, cleared(geometry, head, genes[gene]) - genes[gene], left, head.neutral)
     return fitted
 
 
-def cleared(geometry: HeadGeometry, head: Head, offsets: Mesh) -> Mesh:
-    """Return (N, 3) offsets that keep skin and lashes out of the eyeballs, or as deep as they are at rest."""
+def closed_lids(geometry: Topology, head: Head, core: Meshes) -> Meshes:
+    """Return the two closing shapes, scaled so that weight 1 just shuts the eyes of a head."""
+    left, right = (core[name] for name in _CLOSURE)
+    own = closing_scale(geometry, head.eye_centre, head.neutral, left)
+    # The same columns, counted from the middle outwards, serve the other eye.
+    order = np.argsort(head.neutral[:, 0])
+    other = np.interp(-head.neutral[:, 0], head.neutral[order, 0], own[order])
+    scaled = {_CLOSURE[0]: left * own[:, None], _CLOSURE[1]: right * other[:, None]}
+    both = sum(scaled.values(), np.zeros_like(left))
+    factor = closing_factor(
+        geometry, head.eye_centre, head.neutral, lambda weight: cleared(geometry, head, weight * both)
+    )
+    return {name: factor * offsets for name, offsets in scaled.items()}
+
+
+def cleared(geometry: Topology, head: Head, offsets: Mesh) -> Mesh:
+    """Return (N, 3) offsets whose straight path keeps skin and lashes as far out of the eyeballs as they are at rest.
+
+    A straight path cuts the corner of a round one: where its nearest point is too deep, its end is moved out until it
+    is not.
+    """
     result = offsets.copy()
-    covers = geometry.part_vertices("skin", "sockets", "lashes")
     for side in (1, -1):
-        rest = head.neutral[covers] - head.eye_centre * (side, 1, 1)
-        moved = rest + result[covers]
-        depth = np.linalg.norm(moved, axis=1)
-        limit = np.minimum(_clear_radius(moved, depth), np.linalg.norm(rest, axis=1))
-        push = np.where(moved[:, 2] > 0, np.maximum(limit - depth, 0), 0) / np.maximum(depth, 1e-9)
-        result[covers] += push[:, None] * moved
+        centre = head.eye_centre * (side, 1, 1)
+        covers, margin = _covers(geometry, head.neutral, centre)
+        rest = head.neutral[covers] - centre
+        at_rest = np.linalg.norm(rest, axis=1)
+        for _ in range(_CHORD_ROUNDS):
+            end = rest + result[covers]
+            nearest = _nearest_on_path(rest, end)
+            result[covers] += _pushed_out(nearest, end, np.minimum(clear_radius(nearest, margin), at_rest))
     return result
 
 
-def _clear_radius(points: Mesh, distance: NDArray[np.float64]) -> NDArray[np.float64]:
+def cleared_neutral(geometry: Topology, head: Head) -> Mesh:
+    """Return a head's (N, 3) neutral with skin and lashes outside the eyeballs."""
+    mesh = head.neutral.copy()
+    for side in (1, -1):
+        centre = head.eye_centre * (side, 1, 1)
+        covers, margin = _covers(geometry, mesh, centre)
+        place = mesh[covers] - centre
+        mesh[covers] += _pushed_out(place, place, clear_radius(place, margin))
+    return mesh
+
+
+def _pushed_out(points: Mesh, ends: Mesh, limit: NDArray[np.float64]) -> Mesh:
+    """Return (n, 3) how ``ends`` move away from the centre for what (n, 3) ``points`` lack to (n,) ``limit``."""
+    missing = np.maximum(limit - np.linalg.norm(points, axis=1), 0) * smoothstep(ends[:, 2], 0, 3)
+    away: Mesh = (missing / np.maximum(np.linalg.norm(ends, axis=1), 1e-9))[:, None] * ends
+    return away
+
+
+def clear_radius(points: Mesh, margin: NDArray[np.float64] | float) -> NDArray[np.float64]:
     """Return how far from the centre skin must be in the direction of (n, 3) points, wherever the cornea looks."""
+    distance = np.linalg.norm(points, axis=1)
     angle = np.degrees(np.arccos(np.clip(points[:, 2] / np.maximum(distance, 1e-9), -1, 1)))
-    off_cornea = np.maximum(angle - GAZE_DEGREES["LookDown"], 0)
+    off_cornea = np.maximum(angle - max(GAZE_DEGREES.values()), 0)
     bulge = np.clip(1 - (off_cornea / CORNEA_DEGREES) ** 2, 0, None) ** 2
-    radius: NDArray[np.float64] = RADIUS * (1 + EYEBALL_MARGIN + CORNEA_BULGE * bulge)
+    radius: NDArray[np.float64] = RADIUS * (1 + margin + CORNEA_BULGE * bulge)
     return radius
+
+
+def kept_shut(
+    geometry: Topology, head: Head, parents: tuple[str, ...], genes: Mapping[str, Mesh], corrective: Mesh
+) -> Mesh:
+    """Return a (N, 3) corrective changed so that, at weight 1, what comes with closed lids does not move their rims.
+
+    Only pairs with `CLOSING` are changed, near the rims; what the other gene does further away stays.
+    """
+    if CLOSING not in parents or len(parents) != 2:
+        return corrective
+    other = next(name for name in parents if name != CLOSING)
+    soft = geometry.part_vertices("skin", "sockets", "lashes")
+    rim = np.flatnonzero(lid_rings(geometry) == EDGE)
+    away = np.asarray(cKDTree(head.neutral[rim]).query(head.neutral[soft])[0])
+    hold = 1 - smoothstep(away, *_RIM_FADE)
+    hold[np.isin(soft, geometry.part_vertices("lashes"))] = 1
+    kept = corrective.copy()
+    kept[soft] -= hold[:, None] * (genes[other] + corrective)[soft]
+    return kept
+
+
+def _covers(
+    geometry: Topology, neutral: Mesh, centre: NDArray[np.float64]
+) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    """Return the vertices near an eyeball that must stay outside, and by which share of the radius."""
+    skin, lashes = geometry.part_vertices("skin"), geometry.part_vertices("lashes")
+    rings = lid_rings(geometry)
+    covers = np.concatenate([skin[rings[skin] >= EDGE], lashes])
+    near = covers[np.linalg.norm(neutral[covers] - centre, axis=1) < _NEAR * RADIUS]
+    return near, np.where(rings[near] == EDGE, EDGE_MARGIN, EYEBALL_MARGIN)
+
+
+def _nearest_on_path(start: Mesh, end: Mesh) -> Mesh:
+    """Return the (n, 3) points nearest to the origin on the straight paths between (n, 3) points."""
+    way = end - start
+    share = -(start * way).sum(1) / np.maximum((way**2).sum(1), 1e-12)
+    nearest: Mesh = start + np.clip(share, 0, 1)[:, None] * way
+    return nearest
 
 
 def _spread(shapes: Meshes, gene: str, change: Mesh, left: NDArray[np.bool_], neutral: Mesh) -> None:

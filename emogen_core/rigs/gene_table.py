@@ -30,7 +30,8 @@ class Recipe:
 
     ``unit`` names the target as ``set:name`` with ``{side}`` or ``{Side}`` for pairs. A ``pair`` has one target a
     side; a ``split`` is one symmetric target cut into halves; ``one`` is a single symmetric shape; ``left`` is the
-    head's left version of a lateral shape and ``right`` its mirror image; ``eyes`` has no target of its own.
+    head's left version of a lateral shape and ``right`` its mirror image; ``eyes`` turns the eyeballs. A pair without
+    a target is made in `repairs.py`.
     """
 
     name: str
@@ -76,7 +77,7 @@ RECIPES: tuple[Recipe, ...] = (
     Recipe("cheekSuck", "ak:cheekPuff", "split", ("AD35",), "cheek", -0.45, _DISABLED),
     Recipe("noseWrinkle", "ak:noseSneer{Side}", "pair", ("9",), "nose", 1.5),
     Recipe("nostrilFlare", "mh:nose-{side}-dilatation", "pair", ("38",), "nose", 1.8),
-    Recipe("nostrilPinch", "mh:nose-compression", "one", ("39",), "nose", 1.5),
+    Recipe("nostrilPinch", "", "pair", ("39",), "nose"),
     Recipe("noseWingRaise", "mh:nose-{side}-elevation", "pair", ("9", "10"), "nose"),
     Recipe("noseTipDown", "mh:nose-depression", "one", (), "nose"),
     Recipe("jawOpen", "ak:jawOpen", "one", ("26", "27"), "jaw", 0.8),

@@ -32,9 +32,14 @@ if TYPE_CHECKING:
 PARTS = ("skin", "mouth", "sockets", "tongue", "teeth_upper", "teeth_lower", "lashes", "eye_left", "eye_right")
 HEAD_QUADS = 4570
 # Skin quads whose flat edges or middle lie further off the smooth surface than this are split in four, down to the
-# neck: half a pixel of a 480 pixels high portrait.
+# neck: half a pixel of a 480 pixels high portrait. Where a portrait shows the outline, half as much, and what would
+# still show after one step is split again: a step leaves a quarter.
 FACET_MILLIMETRES = 0.25
 FACET_BOTTOM = -130.0
+_OUTLINE_FACET, _STEP_LEAVES = 0.20, 0.25
+# The outline: seen at a slant from anywhere within 30 degrees of the front, and above the jaw. The back of the head is
+# never seen.
+_SLANT, _BACK, _OUTLINE_BOTTOM = 0.45, -0.45, -115.0
 
 _CROP_BOTTOM, _CROP_SIDE = 5.05, 1.75
 _SOCKET_RINGS = 3
@@ -172,11 +177,9 @@ def _surface(mesh: BaseMesh) -> tuple[Refined, dict[str, tuple[int, int]]]:
     left = np.flatnonzero(mesh.vertices[quads].mean(1)[:, 0] > 0)
     right_quads, right_uv = _twins(mesh, quads, uv, left)
     positions = mesh.canonical()
-    facets = bend(np.concatenate([quads[left], right_quads]), positions)[: len(left)]
-    above = positions[quads[left]].mean(1)[:, 1] > FACET_BOTTOM
-    chosen = (facets > FACET_MILLIMETRES) & above & (label[left] == PARTS.index("skin"))
+    wanted = _levels(quads[left], right_quads, positions) * (label[left] == PARTS.index("skin"))
     coordinates = mesh.uv[uv[left]], mesh.uv[right_uv]
-    refined = refine(quads[left], right_quads, coordinates, chosen, positions)
+    refined = refine(quads[left], right_quads, coordinates, wanted, positions)
     part = label[left][refined.quad]
     order = np.argsort(part, kind="stable")
     ends = np.searchsorted(part[order], np.arange(len(found) + 1))
@@ -188,6 +191,19 @@ def _surface(mesh: BaseMesh) -> tuple[Refined, dict[str, tuple[int, int]]]:
         corner_uv=refined.corner_uv[order],
     )
     return sorted_by_part, parts
+
+
+def _levels(left: NDArray[np.intp], right: NDArray[np.intp], positions: NDArray[np.float64]) -> NDArray[np.intp]:
+    """Return (Q,) how often the left half's skin quads have to be split."""
+    facets = bend(np.concatenate([left, right]), positions)[: len(left)]
+    corners = positions[left]
+    normal = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    forward = normal[:, 2] / np.maximum(np.linalg.norm(normal, axis=1), 1e-12)
+    height = corners[:, :, 1].mean(1)
+    outline = (forward < _SLANT) & (forward > _BACK) & (height > _OUTLINE_BOTTOM)
+    once = (height > FACET_BOTTOM) & (facets > np.where(outline, _OUTLINE_FACET, FACET_MILLIMETRES))
+    twice = outline & (_STEP_LEAVES * facets > _OUTLINE_FACET)
+    return np.asarray(once.astype(np.intp) + twice, np.intp)
 
 
 def _twins(

@@ -42,6 +42,14 @@ def highest(
     return heights
 
 
+def over(triangles: NDArray[np.float64], x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return those of (n, 3, 3) triangles that lie over a grid of rising x and y and reach the front half."""
+    low, high = triangles.min(1), triangles.max(1)
+    inside = (high[:, 0] >= x[0]) & (low[:, 0] <= x[-1]) & (high[:, 1] >= y[0]) & (low[:, 1] <= y[-1])
+    chosen: NDArray[np.float64] = triangles[inside & (high[:, 2] > 0)]
+    return chosen
+
+
 def _span(corners: NDArray[np.float64], line: NDArray[np.float64]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return of every triangle the first grid value under it and how many there are."""
     start = np.searchsorted(line, corners.min(1))

@@ -1,12 +1,15 @@
-"""One Catmull-Clark step as a sparse matrix, applied in full only where facets would show.
+"""Two Catmull-Clark steps as a sparse matrix, applied only where facets would show.
 
 Every vertex moves to its Catmull-Clark place (Catmull & Clark 1978, doi:10.1016/0010-4485(78)90110-0), so coarse
-and fine parts lie on the same surface; only chosen quads are split in four. A coarse quad beside a
-split one takes the shared edge points into its outline, so nothing gapes. The step is linear: the same
-matrix serves neutral meshes and offsets.
+and fine parts lie on the same surface; a chosen quad is split in four (level 1) or sixteen (level 2). A coarse quad
+beside a finer one takes the points of the shared edge into its outline, so nothing gapes. The steps are linear: the
+same matrix serves neutral meshes and offsets.
 
 The caller gives the quads of the left half and, row by row in the same corner order, their mirror images; triangles of
 the right half are then exact mirrors of the left ones, diagonals included.
+
+The 25 points on a quad are numbered: corner, edge, corner, edge ... (0 to 7), the middle (8), the quarters of the
+edges in the same round (9 to 16), the spokes' middles (17 to 20), the middles of the four parts (21 to 24).
 """
 
 from __future__ import annotations
@@ -19,6 +22,8 @@ from scipy.sparse import csr_array, diags_array, vstack
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+_SPOTS = 25
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +81,7 @@ def refine(
     left: NDArray[np.intp],
     right: NDArray[np.intp],
     uv: tuple[NDArray[np.float64], NDArray[np.float64]],
-    chosen: NDArray[np.bool_],
+    wanted: NDArray[np.intp],
     positions: NDArray[np.float64],
 ) -> Refined:
     """Refine a mirror-symmetric quad mesh.
@@ -85,27 +90,22 @@ def refine(
         left: (Q, 4) quads of the left half, counter-clockwise.
         right: (Q, 4) their mirror images, corner by corner (so clockwise).
         uv: texture coordinates (Q, 4, 2) of both.
-        chosen: (Q,) which quads to split; quads with three or four split neighbours are split too.
+        wanted: (Q,) how often to split each quad, 0 to 2. A quad with three or four finer neighbours is split as
+            finely, and no quad is coarser by two than its neighbour.
         positions: (S, 3) source vertices, to cut every quad along its shorter diagonal.
     """
     topology = _Topology(np.concatenate([left, right]), len(positions))
-    halves = topology.quads.reshape(2, -1, 4), topology.sides.reshape(2, -1, 4)
-    split = _closed(chosen, topology, len(left))
-    rows = topology.rows()
-    edge_rows = np.flatnonzero(np.isin(np.arange(len(topology.edges)), halves[1][:, split]))
-    face_rows = np.flatnonzero(np.tile(split, 2))
-    operator = csr_array(vstack([rows[0], rows[1][edge_rows], rows[2][face_rows]]))
-    edge_id = np.full(len(topology.edges), -1)
-    edge_id[edge_rows] = len(topology.used) + np.arange(len(edge_rows))
-    face_id = np.full(2 * len(left), -1)
-    face_id[face_rows] = len(topology.used) + len(edge_rows) + np.arange(len(face_rows))
+    levels = _graded(np.tile(wanted, 2), topology)
+    rows, spots = _points(topology, levels)
+    spots, kept = _present(spots, levels, topology)
+    operator = csr_array(rows[kept])
 
-    spots = [_spots(halves[0][h], edge_id[halves[1][h]], face_id.reshape(2, -1)[h]) for h in (0, 1)]
-    local, quad = _triangulate(spots[0], split, operator @ positions)
+    halves = spots.reshape(2, -1, _SPOTS)
+    local, quad = _triangulate(halves[0], levels[: len(left)], operator @ positions)
     corner_uv = [_uv_spots(values) for values in uv]
-    triangles = np.concatenate([spots[0][quad[:, None], local], spots[1][quad[:, None], local[:, ::-1]]])
+    triangles = np.concatenate([halves[0][quad[:, None], local], halves[1][quad[:, None], local[:, ::-1]]])
     mirror = np.arange(operator.shape[0])
-    for a, b in (spots, spots[::-1]):
+    for a, b in (halves, halves[::-1]):
         mirror[a[a >= 0]] = b[a >= 0]
     return Refined(
         operator,
@@ -126,40 +126,97 @@ def bend(quads: NDArray[np.intp], positions: NDArray[np.float64]) -> NDArray[np.
     return worst
 
 
-def _closed(chosen: NDArray[np.bool_], topology: _Topology, half: int) -> NDArray[np.bool_]:
-    split = np.tile(chosen, 2)
+def _graded(wanted: NDArray[np.intp], topology: _Topology) -> NDArray[np.intp]:
+    """Return (2Q,) levels, the same on both halves, without lone coarse quads and without steps of two."""
+    levels = wanted
     while True:
-        cut = np.isin(topology.sides, topology.sides[split])
-        grown = split | (cut.sum(1) >= 3)
-        if (grown == split).all():
-            return split[:half] | split[half:]
-        split = grown
+        grown = levels
+        for level in (2, 1):
+            cut = np.isin(topology.sides, topology.sides[grown >= level])
+            grown = np.where(cut.sum(1) >= 3, np.maximum(grown, level), grown)
+        beside = np.isin(topology.sides, topology.sides[grown == 2]).any(1)
+        grown = np.where(beside, np.maximum(grown, 1), grown)
+        grown = np.tile(grown.reshape(2, -1).max(0), 2)
+        if (grown == levels).all():
+            return levels
+        levels = grown
 
 
-def _spots(corners: NDArray[np.intp], edges: NDArray[np.intp], face: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Return (Q, 9) vertices on a quad: corner, edge, corner, edge ... and the middle; -1 where none is."""
-    ring = np.stack([corners, edges], -1).reshape(-1, 8)
-    return np.concatenate([ring, face[:, None]], 1)
+def _points(topology: _Topology, levels: NDArray[np.intp]) -> tuple[csr_array, NDArray[np.intp]]:
+    """Return the weights of all points of both steps, and (2Q, 25) which of them lie on each quad.
+
+    A point of the first step takes its place of the second only where all around it is split twice.
+    """
+    first = csr_array(vstack(topology.rows()))
+    corners, count = topology.quads, len(topology.used)
+    sides = count + topology.sides
+    middle = count + len(topology.edges) + np.arange(len(corners))
+    parts = np.stack([corners, sides, np.tile(middle[:, None], 4), np.roll(sides, 1, 1)], -1)
+    fine = _Topology(parts.reshape(-1, 4), first.shape[0])
+    vertex, edge, face = (csr_array(rows @ first) for rows in fine.rows())
+    moved = np.ones(first.shape[0], bool)
+    moved[parts[levels < 2]] = False
+    rows = csr_array(vstack([_blend(moved, vertex, first), edge, face]))
+
+    halves = fine.sides.reshape(-1, 4, 4) + first.shape[0]
+    quarters = np.stack([halves[:, :, 0], np.roll(halves[:, :, 3], -1, 1)], -1).reshape(-1, 8)
+    ring = np.stack([corners, sides], -1).reshape(-1, 8)
+    middles = first.shape[0] + len(fine.edges) + np.arange(4 * len(corners)).reshape(-1, 4)
+    return rows, np.concatenate([ring, middle[:, None], quarters, halves[:, :, 1], middles], 1)
+
+
+def _present(
+    spots: NDArray[np.intp], levels: NDArray[np.intp], topology: _Topology
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return the spots renumbered, -1 where a quad has none, and which points are kept."""
+    edge = np.zeros(len(topology.edges), np.intp)
+    np.maximum.at(edge, topology.sides, np.broadcast_to(levels[:, None], topology.sides.shape))
+    side = edge[topology.sides]
+    there = np.ones(spots.shape, bool)
+    there[:, 1:8:2] = side >= 1
+    there[:, 8] = levels >= 1
+    there[:, 9:17] = (side == 2).repeat(2, 1)
+    there[:, 17:] = levels[:, None] == 2
+    kept = np.unique(spots[there])
+    number = np.full(spots.max() + 1, -1)
+    number[kept] = np.arange(len(kept))
+    return np.where(there, number[spots], -1), kept
 
 
 def _uv_spots(uv: NDArray[np.float64]) -> NDArray[np.float64]:
-    middle = (uv + np.roll(uv, -1, 1)) / 2
+    """Return (Q, 25, 2) texture coordinates of the spots from the corners'."""
+    after = np.roll(uv, -1, 1)
+    middle, centre = (uv + after) / 2, uv.mean(1, keepdims=True)
     ring = np.stack([uv, middle], 2).reshape(-1, 8, 2)
-    return np.concatenate([ring, uv.mean(1, keepdims=True)], 1)
+    quarters = np.stack([(uv + middle) / 2, (after + middle) / 2], 2).reshape(-1, 8, 2)
+    parts = (uv + middle + centre + np.roll(middle, 1, 1)) / 4
+    return np.concatenate([ring, centre, quarters, (middle + centre) / 2, parts], 1)
+
+
+def _outlines(level: int, present: NDArray[np.bool_]) -> list[list[int]]:
+    """Return the outlines of a quad's parts as spots, counter-clockwise, with what its finer neighbours add."""
+    if level == 0:
+        return [[spot for spot in range(8) if present[spot]]]
+    if level == 1:
+        outlines = [[2 * k, 9 + 2 * k, 2 * k + 1, 8, (2 * k + 7) % 8, 9 + (2 * k + 7) % 8] for k in range(4)]
+        return [[spot for spot in outline if present[spot]] for outline in outlines]
+    quarters: list[list[int]] = []
+    for k in range(4):
+        out, spoke, back, into = 9 + 2 * k, 17 + k, 17 + (k + 3) % 4, 9 + (2 * k + 7) % 8
+        middle, before = 21 + k, (2 * k + 7) % 8
+        quarters += [[2 * k, out, middle, into], [out, 2 * k + 1, spoke, middle]]
+        quarters += [[middle, spoke, 8, back], [into, middle, back, before]]
+    return quarters
 
 
 def _triangulate(
-    spots: NDArray[np.intp], split: NDArray[np.bool_], places: NDArray[np.float64]
+    spots: NDArray[np.intp], levels: NDArray[np.intp], places: NDArray[np.float64]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return triangles as (T, 3) spots of a quad, and (T,) the quad."""
     local: list[tuple[int, int, int]] = []
     owner: list[int] = []
     for quad, row in enumerate(spots):
-        if split[quad]:
-            outlines = [[2 * k, 2 * k + 1, 8, (2 * k + 7) % 8] for k in range(4)]
-        else:
-            outlines = [[spot for spot in range(8) if row[spot] >= 0]]
-        for outline in outlines:
+        for outline in _outlines(int(levels[quad]), row >= 0):
             fan = _fan(outline, places[row[outline]])
             local += fan
             owner += [quad] * len(fan)
@@ -167,11 +224,12 @@ def _triangulate(
 
 
 def _fan(outline: list[int], corners: NDArray[np.float64]) -> list[tuple[int, int, int]]:
-    """Cut an outline into triangles: a quad along its shorter diagonal, else a fan from the first edge point."""
+    """Cut an outline into triangles: a quad along its shorter diagonal, else a fan from the first point on an edge."""
     if len(outline) == 4:
         first = int(np.sum((corners[0] - corners[2]) ** 2) > np.sum((corners[1] - corners[3]) ** 2) + 1e-9)
     else:
-        first = next(i for i, spot in enumerate(outline) if spot % 2)
+        # A whole quad's edge points are odd, a part's are quarters.
+        first = next(i for i, spot in enumerate(outline) if (spot >= 9 if 8 in outline else spot % 2))
     turned = outline[first:] + outline[:first]
     return [(turned[0], turned[i], turned[i + 1]) for i in range(1, len(turned) - 1)]
 

@@ -9,6 +9,7 @@ import numpy as np
 from emogen_core.errors import InvalidInputError, expected
 from emogen_core.rendering.setup import make_renderer
 from emogen_core.rigs.collision_sheet import collision_sheet
+from emogen_core.rigs.combination_sheet import combination_sheet
 from emogen_core.rigs.contact import FACE, PORTRAIT, QUALITY, Frame, Tile, contact_sheet
 from emogen_core.rigs.random_faces import active_genes
 
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
     from pathlib import Path
 
-    from numpy.typing import NDArray
     from PIL import Image
 
     from emogen_core.face.rig import Rig
@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 RANDOM_FACES = 20
 # As the search's random faces: so many genes of the enabled ones, each uniform in [0, 1].
 RANDOM_GENES = 6
-EMOTION_STRENGTH = 1.0
 # Heads that differ in everything the grid of presets has.
 FOUR = ("female", "male", "asian-female-old", "african-male-young")
 _LARGE = Frame(300, FACE.part)
@@ -88,13 +87,6 @@ def random_sheet(renderer: Renderer, rig: Rig) -> Image.Image:
     return contact_sheet(renderer, rig, _random(rig), 5, PORTRAIT)
 
 
-def emotion_genes(rig: Rig, emotion: str, strength: float = EMOTION_STRENGTH) -> NDArray[np.float64]:
-    """Return the (G,) genome with all genes of an emotion set at one strength."""
-    genes = np.zeros(len(rig.genes))
-    genes[rig.gene_indices(rig.emotion_sets[emotion].genes)] = strength
-    return genes
-
-
 # Name of the file and what draws it; a sheet more is a line more.
 SHEETS: dict[str, Sheet] = {
     "genes": genes_sheet,
@@ -102,6 +94,7 @@ SHEETS: dict[str, Sheet] = {
     "emotions": emotions_sheet,
     "emotions-all": all_emotions_sheet,
     "random": random_sheet,
+    "combinations": combination_sheet,
     "collisions": collision_sheet,
 }
 
@@ -117,7 +110,7 @@ def _emotions(rig: Rig, heads: Sequence[str]) -> Iterator[Tile]:
     for identity in heads:
         yield Tile(identity, identity, np.zeros(len(rig.genes)))
         for emotion in rig.emotion_sets:
-            yield Tile(identity, emotion, emotion_genes(rig, emotion))
+            yield Tile(identity, emotion, rig.emotion_genes(emotion))
 
 
 def _random(rig: Rig) -> Iterator[Tile]:

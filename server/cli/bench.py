@@ -28,12 +28,13 @@ def render(
     rounds: Rounds = 15,
     json_: Json = False,
 ) -> None:
-    """Measure drawing: weights to PNG, and where the time goes."""
+    """Measure drawing: genes to PNG, and where the time goes."""
     # Opens the GL libraries, which the other commands do not need.
+    from emogen_core.correctives.pipeline import face_weights  # noqa: PLC0415
     from emogen_core.rendering.bench import bench_render  # noqa: PLC0415
 
     with plainly():
-        _print(bench_render(faces, size, rounds), json_)
+        _print(bench_render(lambda *face: face_weights(*face).weights, faces, size, rounds), json_)
 
 
 @app.command("turnaround")

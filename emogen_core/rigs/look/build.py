@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from PIL import Image
+from scipy.ndimage import maximum_filter1d
 from scipy.spatial import cKDTree
 
 from emogen_core.rendering.composer import Composer
@@ -20,6 +21,7 @@ from emogen_core.rigs.look.canvas import make_canvas, sample_mask, step
 from emogen_core.rigs.look.eyes import LASH_REACH
 from emogen_core.rigs.look.paint import make_paint, scalp
 from emogen_core.rigs.look.presets import presets
+from emogen_core.rigs.look.seen import seen_layers
 from emogen_core.rigs.look.zones import skin_fields
 
 if TYPE_CHECKING:
@@ -36,6 +38,8 @@ if TYPE_CHECKING:
 
 PAINTED, SHIPPED = 2048, 1024
 _FAR_FROM_LIDS = 0.2  # decimetres
+# How far a lid's margin may lie from its inner rim: sideways, up and down, and forward, millimetres.
+_COLUMN, _LEVEL, _MARGIN = 1.2, 1.3, 5.0
 
 
 def build_look(  # noqa: PLR0913 - the last three by keyword
@@ -70,26 +74,28 @@ def build_look(  # noqa: PLR0913 - the last three by keyword
     paint = make_paint(canvas, skin_fields(canvas, lips, ears, lids, occlusion), ears, min(painted, SHIPPED))
     place = (geometry.positions[atlas.layers["skin"].source] / 100).astype(np.float32)
     on_skin = atlas.layers["skin"].surface[:, 0] == 1
-    paint["scalp"] = scalp(place, sample_mask(ears, atlas.body_uv), on_skin)
+    layers, left = seen_layers(rig, atlas.layers)
+    kept = left["skin"]
+    paint["scalp"] = scalp(place, sample_mask(ears, atlas.body_uv), on_skin)[kept]
     chosen = {name: look for name, look in presets().items() if only is None or name in only}
     styles, baked = {}, {}
     composer = Composer(paint)
     for name, appearance in chosen.items():
         progress(f"tracing light on {name}")
-        light = _relaxed(bake(rig, name), atlas, geometry, lips)
+        light = _relaxed(bake(rig, name), atlas, geometry, lips)[kept]
         baked[name] = np.column_stack([light, composer.hair(appearance) / HAIR_DEPTH])
         styles[name] = style_of(name, appearance, composer.tone(appearance))
     look = Look(
         name="emogen head",
         topology=topology_hash(rig),
-        layers=atlas.layers,
+        layers=layers,
         styles=styles,
         default=next(iter(chosen)),
         textures={"relief": _relief(canvas)},
         bakes=baked,
-        wrinkle_masks=wrinkles.masks(place) * on_skin[:, None],
+        wrinkle_masks=(wrinkles.masks(place) * on_skin[:, None])[kept],
         wrinkle_drivers=wrinkles.drivers(),
-        edges=_edges(geometry),
+        edges=_edges(geometry, rig),
         paint=paint,
     )
     return replace(look, hash=save_look(path, look))
@@ -186,17 +192,37 @@ def _canvas_occlusion(rig: Rig, atlas: Atlas, canvas: Canvas) -> NDArray[np.floa
     return np.asarray((light[nearest] * weight).sum(1) / weight.sum(1), np.float32)
 
 
-def _edges(geometry: HeadGeometry) -> dict[str, NDArray[np.int32]]:
-    """Return the edges of lids and lips, by x: vertices that the skin shares with what lies behind it."""
+def _edges(geometry: HeadGeometry, rig: Rig) -> dict[str, NDArray[np.int32]]:
+    """Return the edges of lids and lips, by x: lips where skin becomes mouth, lids where they end towards the light."""
     lids, lips = (
         np.intersect1d(geometry.part_vertices("skin"), geometry.part_vertices(part)) for part in ("sockets", "mouth")
     )
     x = geometry.positions[:, 0]
     return {
-        **_split(geometry, "left", lids[x[lids] > 0]),
-        **_split(geometry, "right", lids[x[lids] < 0]),
+        **_margins(geometry, rig, _split(geometry, "left", lids[x[lids] > 0])),
+        **_margins(geometry, rig, _split(geometry, "right", lids[x[lids] < 0])),
         **_split(geometry, "mouth", lips),
     }
+
+
+def _margins(geometry: HeadGeometry, rig: Rig, rims: dict[str, NDArray[np.int32]]) -> dict[str, NDArray[np.int32]]:
+    """Return for each inner rim of a lid, which rests on the eyeball, the margin in front of it, which moves."""
+    skin, place = geometry.part_vertices("skin"), geometry.positions
+    closing = sum(np.abs(rig.offsets[rig.shape_names.index(f"lidsClose.{side}")]) for side in "LR")[:, 1]
+    margins = {}
+    for name, rim in rims.items():
+        upper = name.endswith("upper")
+        chosen = []
+        for vertex in rim:
+            away = place[skin] - place[vertex]
+            near = skin[(np.abs(away[:, 0]) < _COLUMN) & (np.abs(away[:, 1]) < _LEVEL) & (np.abs(away[:, 2]) < _MARGIN)]
+            chosen.append(near[(closing if upper else place[:, 2])[near].argmax()])
+        found = np.unique(chosen)
+        found = found[np.argsort(place[found, 0], kind="stable")]
+        # Where the mesh has no vertex on the margin, something behind it was found: its neighbours move more.
+        moved = closing[found]
+        margins[name] = found[2 * moved >= maximum_filter1d(moved, 3) * upper].astype(np.int32)
+    return margins
 
 
 def _split(geometry: HeadGeometry, name: str, rim: NDArray[np.intp]) -> dict[str, NDArray[np.int32]]:

@@ -1,19 +1,20 @@
-"""Expression lines: one signed relief for all faces, shown where and when muscles fold the skin.
+"""Expression lines: where they lie, and which shapes fold them.
 
-The relief is grey: 128 is smooth, darker is the groove, brighter the lip of skin below it that catches the light from
-above. The shader multiplies it by an activation a vertex, ``1 - prod(1 - a_g mask_g)`` over the groups here, whose
-``a_g`` follow the weights of shapes.
+One grey relief holds them all (`relief.py`). The shader multiplies it by an activation a vertex,
+``1 - prod(1 - a_g m_g)`` over the groups here: ``m_g`` is a mask a vertex, so the lines sit on the anatomy of every
+identity, and ``a_g`` follows the weights of shapes (`emogen_core.rendering.surface`).
+
+Places are frontal x and y on the neutral base head, decimetres about the midpoint of the eyes.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from PIL import Image, ImageDraw
-from scipy.interpolate import PchipInterpolator
-from scipy.ndimage import gaussian_filter, gaussian_filter1d, shift
+
+from emogen_core.rigs.look.relief import paint_relief
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -21,7 +22,29 @@ if TYPE_CHECKING:
     from emogen_core.rigs.look.canvas import Canvas
 
 _Point = tuple[float, float]
-_SAMPLES = 500
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One crease.
+
+    Attributes:
+        points: its way.
+        width: how far its shading reaches, decimetres.
+        depth: of the groove, decimetres; a ridge where negative.
+        strands: how many finer lines run beside it.
+        broken: how much of the depth is lost in its gaps, 0 to 1.
+    """
+
+    points: tuple[_Point, ...]
+    width: float
+    depth: float
+    strands: int = 0
+    broken: float = 0.6
+
+    def mirrored(self) -> Line:
+        """Return its mirror image."""
+        return replace(self, points=tuple((-x, y) for x, y in self.points))
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,16 +54,18 @@ class Group:
     Attributes:
         name: what it is.
         side: 0 for both sides at once, 1 left, -1 right; places are given for the left.
-        drivers: shape -> gain; ``.S`` in a name stands for the side.
-        spots: (x, y, rx, ry) Gaussian spots, decimetres, where it shows.
-        lines: (points, width, depth): creases in decimetres, width relative to a fine line, depth 0 to 1.
+        drivers: shape -> gain; ``.S`` in a name stands for the side. Below 0 it smooths the lines out.
+        spots: (x, y, rx, ry) Gaussian spots where it shows.
+        lines: the creases; one that does not begin near the midline is drawn on both sides when ``side`` is 0.
+        pebbles: (x, y, rx, ry, depth) ellipses of dimpled skin.
     """
 
     name: str
     side: int
     drivers: dict[str, float]
     spots: tuple[tuple[float, float, float, float], ...]
-    lines: tuple[tuple[tuple[_Point, ...], float, float], ...] = ()
+    lines: tuple[Line, ...] = ()
+    pebbles: tuple[tuple[float, float, float, float, float], ...] = ()
 
 
 def groups() -> list[Group]:
@@ -50,15 +75,8 @@ def groups() -> list[Group]:
 
 
 def relief(canvas: Canvas) -> NDArray[np.uint8]:
-    """Return the (size, size) grey relief."""
-    total = np.zeros((canvas.size, canvas.size), np.float32)
-    rng = np.random.default_rng(23)
-    for group in groups():
-        for points, width, depth in group.lines:
-            total += _crease(canvas, np.array(points) * (group.side or 1, 1), width, depth, rng)
-            if group.side == 0 and any(abs(x) > 0.02 for x, _ in points) and points[0][0] * points[-1][0] > 0:
-                total += _crease(canvas, np.array(points) * (-1, 1), width, depth, rng)
-    return np.asarray(np.round(128 + 127 * np.clip(total, -1, 1)), np.uint8)
+    """Return the (size, size) grey relief of all groups."""
+    return paint_relief(canvas, groups())
 
 
 def masks(place: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -79,152 +97,141 @@ def _mask(place: NDArray[np.float32], group: Group) -> NDArray[np.float32]:
     x, y, z = place.T
     across = np.abs(x) if group.side == 0 else x * group.side
     bells = [np.exp(-(((across - cx) / rx) ** 2 + ((y - cy) / ry) ** 2)) for cx, cy, rx, ry in group.spots]
-    bell = np.max(bells, axis=0) * np.clip((z + 0.75) / 0.3, 0, 1)
-    return np.asarray(np.where(bell > 0.03, np.minimum(1, 1.25 * bell), 0), np.float32)
-
-
-def _crease(
-    canvas: Canvas, points: NDArray[np.float64], width: float, depth: float, rng: np.random.Generator
-) -> NDArray[np.float32]:
-    """Return (size, size) of one line: a dark core, a bright lip below, broken up along its way."""
-    fine = 2 * canvas.size
-    way = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-    t = np.linspace(0, way[-1], _SAMPLES)
-    path = np.stack([PchipInterpolator(way, points[:, k])(t) for k in (0, 1)], 1)
-    wander = gaussian_filter1d(rng.normal(0, 1, (_SAMPLES, 2)), 45, axis=0)
-    path += 0.012 * way[-1] * wander / wander.std()
-    uv = canvas.front_uv(path)
-    strength = depth * np.sin(np.linspace(0, np.pi, _SAMPLES)) ** 0.6
-    strength *= 1 + 0.45 * np.clip(gaussian_filter1d(rng.normal(0, 3.2, _SAMPLES), 14), -1, 1)
-    image = Image.new("F", (fine, fine), 0)
-    pen = ImageDraw.Draw(image)
-    pixels = uv * (fine, -fine) + (0, fine)
-    for k in np.flatnonzero(np.isfinite(uv[:-1]).all(1) & np.isfinite(uv[1:]).all(1)):
-        pen.line([*pixels[k], *pixels[k + 1]], fill=float(max(0.0, strength[k])), width=max(1, round(fine / 1024)))
-    return _shaded(np.asarray(image.reduce(2)), width * canvas.size / 1024)
-
-
-def _shaded(line: NDArray[np.float32], width: float) -> NDArray[np.float32]:
-    rows, columns = np.nonzero(line)
-    if not len(rows):
-        return line
-    margin = int(8 * width) + 2
-    box = tuple(slice(max(0, k.min() - margin), k.max() + margin) for k in (rows, columns))
-    part = line[box]
-    core = gaussian_filter(part, width) * width * 3.4
-    broad = gaussian_filter(part, 2.0 * width) * width * 3.4
-    lip = shift(broad, (2.1 * width, 0), order=1)
-    out = np.zeros_like(line)
-    out[box] = -0.95 * core - 0.25 * broad + 0.46 * lip
-    return out
+    bell = np.max(bells, axis=0) * np.clip((z + 0.95) / 0.3, 0, 1)
+    return np.asarray(np.where(bell > 0.03, np.minimum(1, 1.6 * bell), 0), np.float32)
 
 
 def _sided(group: Group, side: int) -> Group:
-    return Group(f"{group.name} {'left' if side > 0 else 'right'}", side, group.drivers, group.spots, group.lines)
+    return replace(group, name=f"{group.name} {'left' if side > 0 else 'right'}", side=side)
 
 
 def _both(**gains: float) -> dict[str, float]:
     return {f"{name}.{side}": gain / 2 for name, gain in gains.items() for side in "LR"}
 
 
-_FOREHEAD = tuple(
-    (((-0.36, y + dy), (-0.18, y + 0.025), (0.0, y), (0.18, y + 0.028), (0.36, y + dy)), 1.5, d)
-    for y, dy, d in ((0.30, 0.055, 0.75), (0.385, 0.045, 1.0), (0.465, 0.03, 0.95), (0.545, 0.01, 0.7))
+# The forehead's lines wave: low over the nose, high over the brows. Each is made of pieces that do not quite meet.
+_FOREHEAD = (
+    Line(((-0.27, 0.300), (-0.16, 0.275), (0.0, 0.262), (0.15, 0.276), (0.25, 0.302)), 0.017, 0.0060, 3, 0.8),
+    Line(((-0.41, 0.345), (-0.27, 0.372), (-0.13, 0.352), (0.02, 0.330)), 0.020, 0.0085, 3, 0.5),
+    Line(((0.03, 0.338), (0.14, 0.350), (0.28, 0.370), (0.40, 0.340)), 0.020, 0.0085, 3, 0.5),
+    Line(((-0.37, 0.430), (-0.22, 0.440), (-0.04, 0.412), (0.14, 0.428), (0.25, 0.442)), 0.021, 0.0090, 4, 0.5),
+    Line(((0.17, 0.421), (0.27, 0.433), (0.39, 0.410)), 0.016, 0.0055, 1, 0.5),
+    Line(((-0.33, 0.505), (-0.20, 0.512), (-0.08, 0.492)), 0.018, 0.0065, 2, 0.6),
+    Line(((-0.10, 0.500), (0.05, 0.487), (0.20, 0.507), (0.34, 0.500)), 0.020, 0.0080, 3, 0.6),
+    Line(((-0.22, 0.575), (-0.05, 0.562), (0.12, 0.570), (0.24, 0.577)), 0.018, 0.0050, 2, 0.8),
 )
 _SINGLE = [
     Group(
         "forehead", 0,
-        _both(browInnerUp=0.75, browRaise=0.85, browOblique=0.55, browOuterUp=0.30),
-        ((0.0, 0.42, 0.20, 0.22),), _FOREHEAD,
+        _both(browInnerUp=0.95, browRaise=0.85, browOblique=0.65, browOuterUp=0.30, browDown=-0.30, browKnit=-0.15),
+        ((0.0, 0.42, 0.19, 0.24),), _FOREHEAD,
     ),
     Group(
         "glabella", 0,
-        _both(browDown=0.85, browKnit=0.95, browOblique=0.30),
-        ((0.0, 0.17, 0.10, 0.15),),
-        ((((0.058, 0.07), (0.066, 0.15), (0.050, 0.25)), 1.7, 1.0), (((0.022, 0.10), (0.026, 0.19)), 1.2, 0.55)),
+        _both(browDown=0.85, browKnit=0.95, browOblique=0.35, noseWrinkle=0.25),
+        ((0.0, 0.17, 0.11, 0.14),),
+        (
+            Line(((0.052, 0.075), (0.068, 0.130), (0.062, 0.190), (0.048, 0.250)), 0.020, 0.0125, 1, 0.3),
+            Line(((0.018, 0.105), (0.024, 0.150), (0.020, 0.200)), 0.013, 0.0045, 0, 0.6),
+            Line(((0.098, 0.110), (0.112, 0.150), (0.108, 0.195)), 0.016, 0.0045, 0, 0.6),
+        ),
     ),
     Group(
         "bridge", 0,
-        _both(noseWrinkle=0.9, browDown=0.25),
-        ((0.0, 0.01, 0.11, 0.07),),
+        _both(noseWrinkle=0.9, browDown=0.35, noseWingRaise=0.15),
+        ((0.0, 0.01, 0.10, 0.085),),
         (
-            (((-0.075, 0.045), (0.0, 0.03), (0.075, 0.045)), 1.3, 0.9),
-            (((-0.07, 0.0), (0.0, -0.012), (0.07, 0.0)), 1.2, 0.8),
+            Line(((-0.075, 0.062), (-0.03, 0.047), (0.0, 0.043), (0.04, 0.050), (0.078, 0.066)), 0.014, 0.0060, 0, 0.3),
+            Line(((-0.072, 0.010), (-0.02, -0.004), (0.0, -0.006), (0.070, 0.012)), 0.014, 0.0065, 1, 0.3),
+            Line(((-0.050, -0.050), (0.0, -0.062), (0.052, -0.048)), 0.012, 0.0040, 0, 0.5),
         ),
     ),
     Group(
         "bunny lines", 0,
         _both(noseWrinkle=1.0, noseWingRaise=0.5),
-        ((0.10, -0.16, 0.06, 0.12),),
+        ((0.095, -0.14, 0.065, 0.12),),
         (
-            (((0.085, -0.07), (0.115, -0.13), (0.125, -0.20)), 1.2, 0.8),
-            (((0.070, -0.12), (0.095, -0.18), (0.10, -0.24)), 1.1, 0.7),
+            Line(((0.048, -0.050), (0.085, -0.075), (0.125, -0.118)), 0.014, 0.0105, 1, 0.2),
+            Line(((0.046, -0.100), (0.085, -0.128), (0.130, -0.172)), 0.014, 0.0110, 1, 0.2),
+            Line(((0.052, -0.160), (0.088, -0.185), (0.124, -0.222)), 0.013, 0.0085, 1, 0.3),
         ),
     ),
     Group(
         "chin", 0,
-        {"chinRaise": 1.0, "mouthDepress": 0.6, **_both(mouthPress=0.5, mouthFrown=0.35)},
-        ((0.0, -0.90, 0.17, 0.10),),
-        (
-            (((-0.16, -0.855), (0.0, -0.825), (0.16, -0.855)), 1.8, 0.9),
-            (((-0.10, -0.93), (-0.05, -0.90), (-0.02, -0.94)), 1.9, 0.28),
-            (((0.03, -0.90), (0.07, -0.94), (0.11, -0.91)), 1.9, 0.28),
-            (((-0.04, -0.98), (0.02, -0.96), (0.06, -0.99)), 1.9, 0.25),
-        ),
+        {"chinRaise": 1.0, "mouthDepress": 0.55, **_both(mouthPress=0.35, mouthFrown=0.45)},
+        ((0.0, -0.92, 0.17, 0.10),),
+        (Line(((-0.15, -0.845), (-0.07, -0.826), (0, -0.820), (0.07, -0.826), (0.15, -0.845)), 0.034, 0.009, 0, 0.2),),
+        ((0.0, -0.915, 0.125, 0.074, 0.0095),),
     ),
     Group(
         "upper lip", 0,
         {"mouthPucker": 0.9, "funnelUpper": 0.35, **_both(mouthPress=0.3)},
-        ((0.0, -0.55, 0.15, 0.05),),
-        tuple((((x, -0.515), (x * 1.05, -0.585)), 1.0, 0.6) for x in (0.03, 0.065, 0.10, 0.135)),
+        ((0.0, -0.55, 0.17, 0.05),),
+        tuple(
+            Line(((x, -0.505 - 0.1 * x), (x * 1.05, -0.545), (x * 1.12, -0.585)), 0.011, d, 0, 0.3)
+            for x, d in ((0.022, 0.0026), (0.052, 0.0036), (0.080, 0.0024), (0.104, 0.0038), (0.138, 0.0030))
+        ),
+    ),
+    Group(
+        "neck bands", 0,
+        {"neckTighten": 1.0, "mouthRetract": 0.3, **_both(mouthStretch=0.35), "mouthDepress": 0.1},
+        ((0.17, -1.36, 0.17, 0.26),),
+        (
+            Line(((0.080, -1.130), (0.095, -1.280), (0.085, -1.440), (0.060, -1.600)), 0.036, -0.0130, 0, 0.1),
+            Line(((0.235, -1.090), (0.240, -1.230), (0.215, -1.400), (0.190, -1.560)), 0.040, -0.0110, 0, 0.1),
+        ),
     ),
 ]  # fmt: skip
 _PAIRED = [
     Group(
         "forehead side", 1,
-        {"browOuterUp.S": 0.9, "browRaise.S": 0.6, "browArch.S": 0.75, "browInnerUp.S": 0.15},
-        ((0.32, 0.42, 0.17, 0.20),),
+        {"browOuterUp.S": 0.85, "browRaise.S": 0.65, "browArch.S": 0.75, "browInnerUp.S": 0.20, "browDown.S": -0.25},
+        ((0.31, 0.42, 0.15, 0.22),),
     ),
     Group(
         "crow's feet", 1,
-        {"cheekRaise.S": 0.9, "lidsTight.S": 0.45, "mouthSmile.S": 0.40, "lidsClose.S": 0.20},
-        ((0.545, -0.02, 0.085, 0.13),),
+        {"cheekRaise.S": 0.95, "lidsTight.S": 0.50, "mouthSmile.S": 0.35, "lidsClose.S": 0.20, "mouthSmileOpen": 0.15},
+        ((0.555, -0.03, 0.09, 0.14),),
         (
-            (((0.470, 0.000), (0.530, 0.030), (0.590, 0.075)), 1.4, 1.0),
-            (((0.480, -0.030), (0.540, -0.025), (0.605, -0.010)), 1.4, 1.0),
-            (((0.470, -0.062), (0.525, -0.085), (0.590, -0.110)), 1.3, 0.9),
-            (((0.445, -0.095), (0.495, -0.135), (0.545, -0.180)), 1.2, 0.7),
+            Line(((0.478, 0.018), (0.525, 0.045), (0.575, 0.078), (0.615, 0.120)), 0.015, 0.0075, 2, 0.4),
+            Line(((0.490, -0.008), (0.540, 0.008), (0.600, 0.036)), 0.015, 0.0080, 2, 0.4),
+            Line(((0.488, -0.034), (0.545, -0.040), (0.612, -0.034)), 0.015, 0.0080, 2, 0.4),
+            Line(((0.476, -0.062), (0.530, -0.085), (0.592, -0.106)), 0.015, 0.0070, 2, 0.4),
+            Line(((0.452, -0.092), (0.502, -0.132), (0.552, -0.176)), 0.015, 0.0055, 2, 0.5),
         ),
     ),
     Group(
         "under the eye", 1,
-        {"cheekRaise.S": 0.85, "lidsTight.S": 0.55, "noseWrinkle.S": 0.30},
-        ((0.30, -0.145, 0.17, 0.055),),
+        {"cheekRaise.S": 0.85, "lidsTight.S": 0.60, "noseWrinkle.S": 0.35, "mouthSmile.S": 0.15},
+        ((0.30, -0.135, 0.18, 0.060),),
         (
-            (((0.165, -0.105), (0.26, -0.150), (0.38, -0.135), (0.45, -0.095)), 1.5, 0.8),
-            (((0.20, -0.150), (0.29, -0.190), (0.39, -0.180)), 1.3, 0.55),
+            Line(((0.165, -0.082), (0.22, -0.118), (0.3, -0.13), (0.38, -0.118), (0.44, -0.085)), 0.02, 0.0105, 3, 0.4),
+            Line(((0.190, -0.130), (0.255, -0.168), (0.335, -0.178), (0.405, -0.162)), 0.022, 0.0075, 2, 0.5),
         ),
     ),
     Group(
         "nasolabial", 1,
         {
-            "mouthSmile.S": 0.95, "mouthSmileOpen": 0.7, "mouthSmileSharp": 0.6, "upperLipRaise.S": 0.55,
-            "noseWrinkle.S": 0.45, "noseWingRaise.S": 0.4, "mouthDimple.S": 0.35, "upperLipElevate": 0.5,
-            "mouthStretch.S": 0.3, "mouthRetract": 0.35,
+            "mouthSmile.S": 0.90, "mouthSmileOpen": 0.70, "mouthSmileSharp": 0.60, "upperLipRaise.S": 0.60,
+            "noseWrinkle.S": 0.55, "noseWingRaise.S": 0.40, "mouthDimple.S": 0.30, "upperLipElevate": 0.55,
+            "mouthStretch.S": 0.25, "mouthRetract": 0.30, "cheekRaise.S": 0.20, "mouthPucker": -0.4,
         },
-        ((0.25, -0.50, 0.11, 0.17),),
-        ((((0.165, -0.360), (0.215, -0.435), (0.270, -0.535), (0.305, -0.655)), 3.2, 0.62),),
+        ((0.19, -0.41, 0.09, 0.11), (0.27, -0.55, 0.09, 0.13)),
+        (Line(((0.158, -0.34), (0.192, -0.40), (0.232, -0.465), (0.266, -0.54), (0.284, -0.63)), 0.04, 0.018, 0, 0.2),),
     ),
     Group(
         "cheek fold", 1,
-        {"mouthSmile.S": 0.6, "mouthDimple.S": 0.75, "mouthStretch.S": 0.6, "mouthRetract": 0.55},
-        ((0.355, -0.63, 0.07, 0.14),),
-        ((((0.345, -0.50), (0.376, -0.61), (0.362, -0.74)), 3.0, 0.42),),
+        {
+            "mouthSmile.S": 0.55, "mouthDimple.S": 0.75, "mouthStretch.S": 0.60, "mouthRetract": 0.55,
+            "mouthSmileOpen": 0.2,
+        },
+        ((0.36, -0.62, 0.06, 0.13),),
+        (Line(((0.340, -0.500), (0.362, -0.570), (0.366, -0.650), (0.350, -0.740)), 0.036, 0.0085, 0, 0.2),),
     ),
     Group(
         "marionette", 1,
-        {"mouthFrown.S": 0.95, "mouthDepress": 0.8, "lowerLipRetract": 0.4, "mouthPress.S": 0.3},
-        ((0.255, -0.80, 0.08, 0.12),),
-        ((((0.255, -0.690), (0.268, -0.780), (0.255, -0.890)), 2.6, 0.66),),
+        {"mouthFrown.S": 0.95, "mouthDepress": 0.75, "lowerLipRetract": 0.35, "mouthPress.S": 0.25, "neckTighten": 0.3},
+        ((0.255, -0.79, 0.07, 0.11),),
+        (Line(((0.262, -0.722), (0.272, -0.790), (0.264, -0.870)), 0.030, 0.0105, 0, 0.2),),
     ),
 ]  # fmt: skip

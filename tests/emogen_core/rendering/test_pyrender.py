@@ -1,18 +1,22 @@
 """The fast renderer, on whatever GL this machine has."""
 
+import io
 import os
 import subprocess
 import sys
 import threading
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from emogen_core.correctives.pipeline import shape_weights
 from emogen_core.errors import InvalidInputError, MissingGLError, RenderingError
 from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.rendering.plain import plain_look
 from emogen_core.rendering.protocol import SURROUND_DARK, SURROUND_LIGHT, RenderSettings
+from emogen_core.rendering.pyrender_backend import PyrenderRenderer
 from emogen_core.rendering.setup import look_for, make_renderer
 
 from .ball import ball_rig
@@ -129,6 +133,58 @@ def test_every_gene_can_be_seen(renderer, gene):
     calm, moved = renderer.draw("female", faces({}, {gene: 1}), RenderSettings(400, 480)).astype(int)
     changed = np.abs(moved - calm).max(2) > 10
     assert changed.sum() > 40
+
+
+def test_leaving_out_what_has_faded_changes_no_picture(renderer, monkeypatch):
+    weights = faces({}, {"neckTighten": 1, "jawOpen": 1}, {"mouthDepress": 1, "chinRaise": 1})
+    framed = renderer.draw("male", weights, SIZE)
+    whole, _ = make_renderer("pyrender")
+    monkeypatch.setattr(whole.surface, "framed_skin", lambda *_: look_for(rig).layers["skin"].triangles)
+    assert np.array_equal(whole.draw("male", weights, SIZE), framed)
+    whole.close()
+
+
+def test_without_lines_a_face_is_the_one_with_smooth_relief(renderer):
+    look, weights = look_for(rig), faces({"browRaise": 1, "mouthSmile": 1, "noseWrinkle": 1})
+    smooth = {**look.textures, "relief": grey(128)}
+    off = {name: replace(style, wrinkles=0.0) for name, style in look.styles.items()}
+    pictures = []
+    for changed in (replace(look, textures=smooth), replace(look, styles=off)):
+        other = PyrenderRenderer(rig, changed)
+        pictures.append(other.draw("female", weights, SIZE))
+        other.close()
+    assert np.array_equal(*pictures)
+    assert np.abs(renderer.draw("female", weights, SIZE).astype(int) - pictures[0]).max() > 12
+
+
+def grey(level):
+    buffer = io.BytesIO()
+    Image.new("L", (64, 64), level).resize((1024, 1024)).save(buffer, "PNG")
+    return np.frombuffer(buffer.getvalue(), np.uint8)
+
+
+@pytest.mark.parametrize("identity", ["female", "african-male-old"])
+def test_no_gene_leaves_a_black_hole(renderer, identity):
+    every = faces(*({gene.name: 1} for gene in rig.genes))
+    assert not (renderer.draw(identity, every, SIZE) == 0).all(3).any()
+
+
+@pytest.mark.parametrize("identity", rig.identities)
+@pytest.mark.parametrize("size", [(384, 384), (400, 480)])
+def test_no_bust_reaches_the_frame(renderer, identity, size):
+    picture = renderer.draw(identity, NEUTRAL, RenderSettings(*size))[0].astype(int)
+    for edge in (picture[-1], picture[:, 0], picture[:, -1], picture[0]):
+        assert np.abs(edge - SURROUND_LIGHT).max() <= 6
+
+
+def test_a_refused_face_leaves_the_next_one_whole(renderer):
+    before = renderer.draw("female", NEUTRAL, SIZE)
+    bad = NEUTRAL.copy()
+    bad[0, 0] = np.nan
+    for identity, weights in (("female", bad), ("female", NEUTRAL[:, :-1]), ("nobody", NEUTRAL)):
+        with pytest.raises(InvalidInputError, match="expected"):
+            renderer.draw(identity, weights, SIZE)
+    assert np.array_equal(renderer.draw("female", NEUTRAL, SIZE), before)
 
 
 def test_closed_eyes_hide_the_iris(renderer):

@@ -1,14 +1,18 @@
 """What the graphics card is given."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.spatial import cKDTree
 
 from emogen_core.correctives.pipeline import shape_weights
 from emogen_core.errors import InvalidInputError
 from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.face.evaluate import vertices
+from emogen_core.rendering.camera import frame_head
 from emogen_core.rendering.look import HAIR_DEPTH
 from emogen_core.rendering.plain import plain_look
 from emogen_core.rendering.setup import look_for
@@ -103,16 +107,106 @@ def test_lines_show_where_muscles_fold_the_skin(surface):
     assert old.max() > 0.2
 
 
+def test_without_expression_lines_nothing_else_changes(surface):
+    bare = Surface(rig, replace(surface.look, styles=without_lines(surface.look)))
+    weights = face(browRaise=1, mouthSmile=1, noseWrinkle=1)
+    with_lines, without = rows_of(surface, weights), rows_of(bare, weights)
+    assert (without["skin"][:, 13] == 0).all()
+    assert with_lines["skin"][:, 13].max() > 0.3
+    for name, rows in with_lines.items():
+        columns = slice(0, 13) if name == "skin" else slice(None)
+        assert np.array_equal(rows[:, columns], without[name][:, columns])
+
+
+def without_lines(look):
+    return {name: replace(style, wrinkles=0.0) for name, style in look.styles.items()}
+
+
+@pytest.mark.parametrize("gene", [g.name for g in rig.genes if "disabled" not in g.flags])
+def test_lines_deepen_with_a_gene_and_with_age(surface, gene):
+    steps = [rows_of(surface, face(**{gene: value}))["skin"][:, 13] for value in (0, 0.5, 1)]
+    old = rows_of(surface, face(**{gene: 1}), "caucasian-female-old")["skin"][:, 13]
+    young = rows_of(surface, face(**{gene: 1}), "caucasian-female-young")["skin"][:, 13]
+    assert (steps[0] == 0).all()
+    assert (steps[1] <= steps[2] + 1e-6).all()
+    assert (young <= old + 1e-6).all()
+    assert steps[2].max() < 1
+
+
+def test_symmetric_weights_give_mirrored_vertices_and_normals(surface):
+    neutral = rig.neutral("female")
+    distance, mirror = cKDTree(neutral).query(neutral * (-1, 1, 1))
+    drawn = np.unique(np.concatenate([layer.source for layer in surface.look.layers.values()]))
+    drawn = drawn[distance[drawn] < 1e-3]
+    assert len(drawn) > 5000
+    for weights in (face(mouthSmile=1, browDown=0.7, jawOpen=0.4), face(noseWrinkle=1, mouthFrown=0.8, lidsTight=1)):
+        mesh = vertices(rig, "female", weights)[0]
+        normals = surface.normals(mesh)
+        assert mesh[mirror[drawn]] * (-1, 1, 1) == pytest.approx(mesh[drawn], abs=2e-2)
+        turned = np.einsum("ij,ij->i", normals[mirror[drawn]] * (-1, 1, 1), normals[drawn])
+        # Coincident vertices of different parts may be paired with each other's images.
+        assert np.percentile(turned, 2) > 0.995
+
+
+@pytest.mark.parametrize("identity", ["female", "asian-male-old"])
+def test_every_gene_alone_gives_finite_rows(surface, identity):
+    for gene in rig.genes:
+        for rows in rows_of(surface, face(**{gene.name: 1}), identity).values():
+            assert np.isfinite(rows).all(), gene.name
+
+
+@pytest.mark.parametrize("identity", rig.identities)
+def test_the_catchlight_stays_between_the_lids_and_goes_out_with_them(surface, identity):
+    eyes = [rows_of(surface, w, identity)["eyes"] for w in (face(), face(lidsSlit=0.5), face(lidsClose=1))]
+    heights = [rows[:, 11].max() for rows in eyes]
+    strengths = [rows[:, 12].max() for rows in eyes]
+    assert heights[0] >= heights[1] - 1e-6
+    assert strengths[0] == pytest.approx(1)
+    assert strengths[1] > 0.3
+    assert strengths[2] < 0.1
+
+
+def test_the_mouth_grows_dark_behind_the_lips(surface):
+    rows = rows_of(surface, face(jawOpen=1))["skin"]
+    inside = surface.look.layers["skin"].surface[:, 2] == 1
+    lips = rig.neutral("female")[surface.look.edges["mouth_upper"], 2].max()
+    behind = lips - rows[:, 2]
+    assert rows[inside & (behind > 45), 10].mean() < 0.5 * rows[inside & (behind < 12), 10].mean()
+
+
+@pytest.mark.parametrize("identity", rig.identities)
+def test_what_is_left_out_of_the_frame_has_faded_on_every_face(surface, identity):
+    camera = frame_head(surface.neutral_skin(identity))
+    framed = surface.framed_skin(identity, camera)
+    layer = surface.look.layers["skin"]
+    assert 0.8 * len(layer.triangles) < len(framed) <= len(layer.triangles)
+    shown = {tuple(row) for row in framed.tolist()}
+    dropped = np.array([row for row in layer.triangles.tolist() if tuple(row) not in shown])
+    _, gone, sideward = camera.fade
+    for weights in (face(), face(neckTighten=1, jawOpen=1), face(mouthDepress=1, chinRaise=1)):
+        x, y = rows_of(surface, weights, identity)["skin"][:, :2].T
+        assert ((y - sideward * x**2)[dropped] < gone).all()
+
+
 def test_lowered_lids_darken_the_eyes(surface):
     open_eyes, narrow = (rows_of(surface, w)["eyes"] for w in (face(lidUpperRaise=1), face(lidsSlit=1)))
     front = open_eyes[:, 5] > 0.9
     assert narrow[front, 10].mean() < open_eyes[front, 10].mean() - 0.05
 
 
-def test_bad_weights_are_refused(surface):
-    with pytest.raises(InvalidInputError):
-        list(surface.faces("female", np.zeros((1, 3), np.float32)))
-    with pytest.raises(InvalidInputError):
+@pytest.mark.parametrize("value", [np.nan, np.inf, -0.01, 1.01])
+def test_a_weight_that_is_none_is_refused(surface, value):
+    weights = face()
+    weights[0, 3] = value
+    with pytest.raises(InvalidInputError, match="finite values in"):
+        list(surface.faces("female", weights))
+
+
+def test_wrong_counts_and_unknown_heads_are_refused(surface):
+    for weights in (np.zeros((1, 3), np.float32), face()[0], np.zeros((1, len(rig.shape_names) + 1), np.float32)):
+        with pytest.raises(InvalidInputError, match="expected shape"):
+            list(surface.faces("female", weights))
+    with pytest.raises(InvalidInputError, match="nobody"):
         list(surface.faces("nobody", face()))
 
 

@@ -9,6 +9,7 @@ import pytest
 
 from emogen_core.errors import InvalidInputError
 from emogen_core.face.bundled import load_bundled_rig
+from emogen_core.face.space_file import load_bundled_space, load_space
 from emogen_core.rigs.bundled import build_rig
 from emogen_core.rigs.source import WHEEL, Source, fetch, open_source
 
@@ -23,7 +24,8 @@ def source(request: pytest.FixtureRequest) -> Source:
 
 
 def test_a_rebuild_gives_the_committed_hash(source: Source, tmp_path: Path) -> None:
-    assert build_rig(source.root, tmp_path / "head.rig").hash == load_bundled_rig().hash
+    assert build_rig(source.root, tmp_path / "head.rig", tmp_path / "head.space").hash == load_bundled_rig().hash
+    assert load_space(tmp_path / "head.space").hash == load_bundled_space().hash
 
 
 def test_a_folder_without_the_data_is_refused(tmp_path: Path) -> None:

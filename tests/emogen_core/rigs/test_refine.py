@@ -1,4 +1,4 @@
-"""One Catmull-Clark step, partly coarse: still one closed, symmetric surface."""
+"""Catmull-Clark steps, partly coarse: still one closed, symmetric surface."""
 
 from __future__ import annotations
 
@@ -30,18 +30,18 @@ def sheet():
     return left, right, (points[left][:, :, :2], points[right][:, :, :2]), points
 
 
-def refined(chosen):
+def refined(levels):
     left, right, uv, points = sheet()
-    return refine(left, right, uv, np.asarray(chosen, bool), points), points
+    return refine(left, right, uv, np.asarray(levels, np.intp), points), points
 
 
-masks = st.lists(st.booleans(), min_size=SIZE**2, max_size=SIZE**2)
+levels = st.lists(st.integers(0, 2), min_size=SIZE**2, max_size=SIZE**2)
 
 
-@given(masks)
+@given(levels)
 @settings(max_examples=50)
-def test_nothing_gapes_between_fine_and_coarse(chosen):
-    triangles = refined(chosen)[0].triangles
+def test_nothing_gapes_between_fine_and_coarse(wanted):
+    triangles = refined(wanted)[0].triangles
     edges = np.sort(np.stack([triangles, np.roll(triangles, -1, 1)], -1).reshape(-1, 2), 1)
     count = np.unique(edges, axis=0, return_counts=True)[1]
     assert set(count) <= {1, 2}
@@ -49,10 +49,10 @@ def test_nothing_gapes_between_fine_and_coarse(chosen):
     assert vertices - len(count) + faces == 1
 
 
-@given(masks)
+@given(levels)
 @settings(max_examples=50)
-def test_the_halves_are_mirror_images(chosen):
-    mesh, points = refined(chosen)
+def test_the_halves_are_mirror_images(wanted):
+    mesh, points = refined(wanted)
     places = mesh.operator @ points
     assert np.allclose(places[mesh.mirror] * (-1, 1, 1), places)
     assert np.array_equal(mesh.mirror[mesh.mirror], np.arange(len(places)))
@@ -60,20 +60,20 @@ def test_the_halves_are_mirror_images(chosen):
     assert np.array_equal(mesh.mirror[mesh.triangles[:half]][:, ::-1], mesh.triangles[half:])
 
 
-@given(masks)
+@given(levels)
 @settings(max_examples=50)
-def test_texture_follows_and_no_triangle_is_turned_over(chosen):
-    mesh, _ = refined(chosen)
+def test_texture_follows_and_no_triangle_is_turned_over(wanted):
+    mesh, _ = refined(wanted)
     a, b, c = np.moveaxis(mesh.corner_uv, 1, 0)
     area = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
     assert (area > 0).all()
     assert area.sum() / 2 == pytest.approx(2 * SIZE * SIZE)
 
 
-@given(masks)
+@given(levels)
 @settings(max_examples=50)
-def test_every_vertex_is_a_mean_of_source_vertices(chosen):
-    mesh, _ = refined(chosen)
+def test_every_vertex_is_a_mean_of_source_vertices(wanted):
+    mesh, _ = refined(wanted)
     assert np.allclose(mesh.operator.sum(1), 1)
     assert mesh.operator.data.min() >= -1e-12
 
@@ -87,9 +87,27 @@ def test_a_regular_inner_vertex_takes_its_published_place():
     assert weights[inner + SIZE + 2] == pytest.approx(1 / 64)
 
 
-def test_everything_chosen_gives_eight_triangles_a_quad_and_nothing_two():
-    assert len(refined(np.ones(SIZE**2))[0].triangles) == 16 * SIZE**2
-    assert len(refined(np.zeros(SIZE**2))[0].triangles) == 4 * SIZE**2
+@pytest.mark.parametrize("level", [0, 1, 2])
+def test_every_level_has_four_times_the_triangles(level):
+    assert len(refined(np.full(SIZE**2, level))[0].triangles) == 4 * SIZE**2 * 4**level
+
+
+def test_the_second_step_is_a_smaller_one():
+    twice, points = refined(np.full(SIZE**2, 2))
+    once, _ = refined(np.ones(SIZE**2))
+    inner = (SIZE + 2) * (SIZE + 1) + 2
+    before, after = once.operator @ points, twice.operator @ points
+    assert 0 < np.linalg.norm(after[inner] - before[inner]) < 0.5 * np.linalg.norm(before[inner] - points[inner])
+
+
+def test_a_lone_coarse_quad_and_a_step_of_two_are_smoothed_out():
+    wanted = np.full((SIZE, SIZE), 1)
+    wanted[1, 1] = 0
+    assert len(refined(wanted.ravel())[0].triangles) == 16 * SIZE**2
+    wanted[:] = 0
+    wanted[1, 1] = 2
+    quad = refined(wanted.ravel())[0].quad
+    assert (np.bincount(quad, minlength=SIZE**2).reshape(SIZE, SIZE)[1, :3] >= [16, 64, 16]).all()
 
 
 def test_a_flat_sheet_does_not_bend():

@@ -5,11 +5,9 @@ import pytest
 from PIL import Image
 
 from emogen_core.errors import InvalidInputError
-from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.rigs.contact import FACE, MOUTH, PORTRAIT, arranged, captioned
-from emogen_core.rigs.sheets import FOUR, SHEETS, emotion_genes, make_sheets
+from emogen_core.rigs.sheets import FOUR, SHEETS, make_sheets
 
-RIG = load_bundled_rig()
 TILES = {"identities": 14, "random": 20, "emotions": 7 * len(FOUR)}
 
 
@@ -27,13 +25,7 @@ def test_sheets_are_drawn(tmp_path):
 def test_an_unknown_sheet_is_refused(tmp_path):
     with pytest.raises(InvalidInputError, match=r"'genes'.*'collisions'.*got .'nose'"):
         make_sheets(tmp_path, only=["nose"])
-    assert {"genes", "identities", "emotions", "random", "collisions"} <= set(SHEETS)
-
-
-def test_an_emotion_sets_its_genes_and_no_others():
-    genes = emotion_genes(RIG, "happy", 0.5)
-    assert genes[RIG.gene_names.index("mouthSmile")] == 0.5
-    assert (genes > 0).sum() == len(RIG.emotion_sets["happy"].genes)
+    assert {"genes", "identities", "emotions", "random", "combinations", "collisions"} <= set(SHEETS)
 
 
 @pytest.mark.parametrize("frame", [FACE, MOUTH, PORTRAIT])

@@ -1,0 +1,128 @@
+"""Makes a bare head one that a rig can wear: one way for the builder's presets and for any point of the space.
+
+Rest pose, skin out of the eyeballs, lips sealed, the neutral freed from collisions; then every shape that moves lids,
+and every corrective of such shapes, is fitted anew and kept as the head's adjustment.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from emogen_core.correctives.collision.regions import has_regions, judge_anchors, target_faces
+from emogen_core.face.rig import Adjustment
+from emogen_core.rigs.candidates import Deriver, Pair
+from emogen_core.rigs.collision_bake import settled
+from emogen_core.rigs.fitting import Head, cleared_neutral, fitted_lids, gene_offsets, kept_shut
+from emogen_core.rigs.lips import close_slits, seal_lips, visible_teeth
+from emogen_core.rigs.mending import mended_shapes
+from emogen_core.rigs.rest import BROWS, rest_pose
+from emogen_core.rigs.topology import RigTopology
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from numpy.typing import NDArray
+
+    from emogen_core.correctives.collision.regions import Anchors
+    from emogen_core.face.rig import Rig
+    from emogen_core.face.space import IdentitySpace
+    from emogen_core.rigs.fitting import Mesh, Meshes
+    from emogen_core.rigs.topology import Topology
+
+# Differences below this, millimetres, are not worth storing.
+_SEEN = 0.02
+_ROUNDS = 4
+
+
+@dataclass(frozen=True, eq=False)
+class Fitter:
+    """Fits heads to a rig.
+
+    Attributes:
+        rig: its shapes are those of its first head, which needs no adjustment.
+        space: where heads come from; it knows the lips and the correctives that are derived anew.
+    """
+
+    rig: Rig
+    space: IdentitySpace
+
+    def fit(self, point: Mapping[str, float]) -> tuple[NDArray[np.float32], Adjustment]:
+        """Return the neutral (N, 3) of a point of the space, millimetres, and how its shapes differ from the rig's."""
+        neutral, eye_centre = self.space.head(point)
+        low, brows = self.space.low.astype(np.float64), self.rig.regions[BROWS]
+        head = rested(self._topology, low, brows, Head(neutral, eye_centre), self._genes)
+        mesh = self.freed(head.neutral)
+        return mesh.astype(np.float32), self._adjustment(replace(head, neutral=mesh))
+
+    def freed(self, mesh: Mesh) -> Mesh:
+        """Return a rested neutral (N, 3) in which lips and teeth neither collide nor let a tooth be seen."""
+        if self._anchors is None:
+            return mesh
+        low, target = self.space.low.astype(np.float64), target_faces(self.rig)
+        for _ in range(_ROUNDS):
+            mesh = settled(self.rig, close_slits(self._topology, low, mesh), self._anchors, target)
+            if not len(visible_teeth(self._topology, mesh)):
+                break
+        return mesh
+
+    def _adjustment(self, head: Head) -> Adjustment:
+        worn = worn_shapes(self._topology, self._deriver, self._pairs, head, self._core)
+        names = self.rig.shape_names
+        changed = {name: offsets - self.rig.offsets[names.index(name)] for name, offsets in worn.items()}
+        changed = {name: change for name, change in changed.items() if np.abs(change).max() > _SEEN}
+        if not changed:
+            return Adjustment(np.zeros(0, np.intp), np.zeros((0, *head.neutral.shape), np.float32))
+        index = np.array([names.index(name) for name in changed], np.intp)
+        return Adjustment(index, np.stack(list(changed.values())).astype(np.float32))
+
+    @cached_property
+    def _topology(self) -> RigTopology:
+        return RigTopology(self.rig)
+
+    @cached_property
+    def _deriver(self) -> Deriver:
+        return Deriver(self._topology, np.zeros(self.rig.offsets.shape[1:]))
+
+    @cached_property
+    def _core(self) -> Meshes:
+        return {name: self.rig.offsets[i].astype(np.float64) for i, name in enumerate(self.rig.core_shapes)}
+
+    @cached_property
+    def _genes(self) -> Meshes:
+        return gene_offsets(self._core)
+
+    @cached_property
+    def _pairs(self) -> list[Pair]:
+        parents = {combination.name: combination.parents for combination in self.rig.combinations}
+        return [Pair(parents[name], method) for name, method in self.space.lid_correctives]  # type: ignore[arg-type]
+
+    @cached_property
+    def _anchors(self) -> Anchors | None:
+        return judge_anchors(self.rig) if has_regions(self.rig) else None
+
+
+def rested(
+    topology: Topology, low: NDArray[np.float64], brows: NDArray[np.integer], head: Head, genes: Mapping[str, Mesh]
+) -> Head:
+    """Return a bare head in its rest pose, its skin outside the eyeballs and its lips sealed."""
+    mesh = cleared_neutral(topology, head)
+    mesh = rest_pose(topology, low, brows, replace(head, neutral=mesh), genes)
+    mesh = cleared_neutral(topology, replace(head, neutral=mesh))
+    return replace(head, neutral=seal_lips(topology, low, mesh))
+
+
+def worn_shapes(topology: Topology, deriver: Deriver, pairs: Sequence[Pair], head: Head, core: Meshes) -> Meshes:
+    """Return the core shapes fitted to a head and mended on it, and the correctives of ``pairs``."""
+    worn = mended_shapes(deriver.mender, head, core | fitted_lids(topology, head, core))
+    genes = gene_offsets(worn)
+    derived = {pair.combination.name: lid_corrective(topology, deriver, pair, head, genes) for pair in pairs}
+    return worn | derived
+
+
+def lid_corrective(topology: Topology, deriver: Deriver, pair: Pair, head: Head, genes: Mapping[str, Mesh]) -> Mesh:
+    """Return a pair's corrective on a head, under which closed lids stay closed."""
+    return kept_shut(topology, head, pair.parents, genes, deriver.derive(pair, head, genes))

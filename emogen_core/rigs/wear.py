@@ -1,0 +1,82 @@
+"""Puts a head of the space on a rig: a new rig value with one identity more, its shapes and its hash untouched."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+from emogen_core.errors import InvalidInputError, expected
+from emogen_core.face.identity import identity_hash, require_adult
+from emogen_core.face.space import ANCESTRIES, topology_hash
+from emogen_core.rigs.adapt import Fitter
+from emogen_core.rigs.identities import IDENTITIES
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from emogen_core.face.identity import Identity
+    from emogen_core.face.rig import Rig
+    from emogen_core.face.space import IdentitySpace
+
+_HASH_LETTERS = 12
+# Years that count as much as the other sex or another ancestry when presets are compared.
+_YEARS = 65.0
+
+
+def wear(rig: Rig, space: IdentitySpace, identity: Identity, *, children: bool = False) -> tuple[Rig, str]:
+    """Return a rig that can also wear an identity, and the name under which it does.
+
+    Args:
+        rig: the face model that the space was made for.
+        space: the space of heads.
+        identity: the head; its name is derived from its content, so the same identity has the same name everywhere.
+        children: whether heads below adult age may be worn.
+
+    Raises:
+        InvalidInputError: the space was made for another mesh.
+        IdentityError: the identity is no point of the space, or a child's where none may be worn.
+    """
+    if not children:
+        require_adult(identity, space)
+    name = worn_name(identity, space)
+    if name in rig.neutrals:
+        return rig, name
+    neutral, adjustment = fitter(rig, space).fit(identity.head)
+    return (
+        replace(rig, neutrals={**rig.neutrals, name: neutral}, adjustments={**rig.adjustments, name: adjustment}),
+        name,
+    )
+
+
+def worn_name(identity: Identity, space: IdentitySpace) -> str:
+    """Return the name under which rigs wear an identity; raises `IdentityError` where it is no point of the space."""
+    return f"custom-{identity_hash(identity, space)[:_HASH_LETTERS]}"
+
+
+@lru_cache(maxsize=2)
+def fitter(rig: Rig, space: IdentitySpace) -> Fitter:
+    """Return what fits heads of a space to a rig, made once.
+
+    Raises:
+        InvalidInputError: the space was made for another mesh.
+    """
+    found = topology_hash(rig.triangles, rig.mirror, rig.parts)
+    if found != space.topology:
+        raise InvalidInputError(f"rig: {expected(f'the mesh {space.topology[:12]} of the space', found[:12])}")
+    return Fitter(rig, space)
+
+
+def nearest_preset(point: Mapping[str, float], space: IdentitySpace) -> str:
+    """Return the preset whose sex, age and ancestry come nearest to a point's."""
+
+    def value(of: Mapping[str, float], name: str) -> float:
+        return of.get(name, space.ranges[name].default)
+
+    def away(preset: str) -> float:
+        other = IDENTITIES[preset]
+        return sum(abs(value(point, name) - value(other, name)) for name in ("sex", *ANCESTRIES)) + (
+            abs(value(point, "age") - value(other, "age")) / _YEARS
+        )
+
+    return min(IDENTITIES, key=away)

@@ -1,0 +1,108 @@
+"""The space of heads: points in, symmetric heads out, in one frame."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from emogen_core.errors import InvalidInputError, RigFileError
+from emogen_core.face.bundled import load_bundled_rig
+from emogen_core.face.space import AGES, ANCESTRIES, age_shares, fit_sphere, topology_hash
+from emogen_core.face.space_file import BUNDLED_SPACE, load_bundled_space, load_space, save_space
+
+RIG, SPACE = load_bundled_rig(), load_bundled_space()
+
+
+def random_point(rng, spread=0.4):
+    point = {"sex": rng.random(), "age": rng.uniform(18, 90), "weight": rng.uniform(-1, 1)}
+    point |= dict(zip(ANCESTRIES, rng.dirichlet([0.6] * 3).tolist(), strict=True))
+    for name in SPACE.details:
+        known = SPACE.ranges[name]
+        point[name] = float(np.clip(rng.normal(0, spread), known.low, known.high))
+    return point
+
+
+def test_the_space_is_of_the_bundled_rig_and_small():
+    assert SPACE.topology == topology_hash(RIG.triangles, RIG.mirror, RIG.parts)
+    assert BUNDLED_SPACE.stat().st_size <= 3 * 2**20
+    assert len(SPACE.details) >= 20
+    assert {SPACE.ranges[name].region for name in SPACE.details} >= {
+        "head", "eye", "nose", "mouth", "cheek", "chin", "brow", "ear",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_every_head_is_its_own_mirror_image_in_the_frame_of_the_eyes(seed):
+    mesh, centre = SPACE.head(random_point(np.random.default_rng(seed)))
+    assert np.isfinite(mesh).all()
+    assert mesh[RIG.mirror] * (-1, 1, 1) == pytest.approx(mesh, abs=1e-9)
+    ball = mesh[np.unique(RIG.triangles[slice(*RIG.parts["eye_left"])])]
+    found, radius = fit_sphere(ball[np.linalg.norm(ball - centre, axis=1) < SPACE.eye_radius + 1e-3])
+    assert found == pytest.approx(centre, abs=1e-3)
+    assert centre[1:].tolist() == [0, 0]
+    assert radius == pytest.approx(14.95, abs=1e-3)
+
+
+def test_half_a_slider_is_half_way_before_the_head_is_scaled():
+    point = {"nose-width": 1.0}
+    ends = [SPACE.head({name: value * share for name, value in point.items()})[0] for share in (0, 0.5, 1)]
+    assert ends[1] == pytest.approx((ends[0] + ends[2]) / 2, abs=1e-6)
+    assert np.abs(ends[2] - ends[0]).max() > 2
+
+
+def test_the_shares_of_a_corner_are_its_targets_alone():
+    weights = SPACE.weights({"sex": 1.0, "age": 90.0, "african": 1.0, "asian": 0.0, "caucasian": 0.0})
+    assert weights == {"african-male-old": 1.0}
+
+
+@pytest.mark.parametrize("years", [10, 14, 25, 40, 71.5, 90])
+def test_shares_of_age_sum_to_one_and_name_at_most_two_neighbours(years):
+    shares = age_shares(years)
+    assert sum(shares.values()) == pytest.approx(1)
+    assert sum(share > 0 for share in shares.values()) <= 2
+    assert sum(share * AGES[age] for age, share in shares.items()) == pytest.approx(years)
+
+
+@pytest.mark.parametrize(
+    ("point", "message"),
+    [
+        ({"nose-lenght": 0.1}, "nose-lenght"),
+        ({"nose-width": 1.01}, r"nose-width: expected a number in \[-1, 1\], got 1.01"),
+        ({"age": float("nan")}, "age"),
+        ({"african": 0.9}, "shares that sum to 1"),
+    ],
+)
+def test_a_point_outside_is_refused_with_its_name(point, message):
+    with pytest.raises(InvalidInputError, match=message):
+        SPACE.head(point)
+
+
+def test_a_space_comes_back_from_its_file_as_it_was_stored(tmp_path):
+    stored = save_space(SPACE, tmp_path / "a.space")
+    assert stored.hash == SPACE.hash
+    again = load_space(tmp_path / "a.space")
+    point = random_point(np.random.default_rng(9))
+    assert (again.head(point)[0] == SPACE.head(point)[0]).all()
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"half": SPACE.half[:-1]},
+        {"eyes": SPACE.eyes + len(SPACE.low)},
+        {"base": np.full_like(SPACE.base, np.nan)},
+        {"targets": {name: t for name, t in SPACE.targets.items() if name != "nose-width+"}},
+    ],
+)
+def test_a_space_that_contradicts_itself_is_not_stored(tmp_path, change):
+    with pytest.raises(RigFileError, match="expected"):
+        save_space(replace(SPACE, **change), tmp_path / "bad.space")
+
+
+def test_a_damaged_file_is_refused(tmp_path):
+    path = tmp_path / "cut.space"
+    path.write_bytes(BUNDLED_SPACE.read_bytes()[:-4000])
+    with pytest.raises(RigFileError, match="readable space file"):
+        load_space(path)
