@@ -4,24 +4,25 @@ from __future__ import annotations
 
 import io
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from PIL import Image
 from scipy.ndimage import maximum_filter1d
 from scipy.spatial import cKDTree
 
-from emogen_core.rendering.look import HAIR_DEPTH, Layer, Look, Style, save_look, topology_hash
+from emogen_core.rendering.composer import Composer
+from emogen_core.rendering.look import HAIR_DEPTH, Layer, Look, save_look, style_of, topology_hash
 from emogen_core.rigs.head_mesh import build_geometry
-from emogen_core.rigs.look import eyes, wrinkles
+from emogen_core.rigs.look import wrinkles
 from emogen_core.rigs.look.atlas import SKIN_PARTS, build_atlas
 from emogen_core.rigs.look.bake import bake
 from emogen_core.rigs.look.canvas import make_canvas, sample_mask, step
-from emogen_core.rigs.look.hair import hair_thickness
-from emogen_core.rigs.look.presets import ALIASES, Preset, presets
+from emogen_core.rigs.look.eyes import LASH_REACH
+from emogen_core.rigs.look.paint import make_paint, scalp
+from emogen_core.rigs.look.presets import presets
 from emogen_core.rigs.look.seen import seen_layers
-from emogen_core.rigs.look.skin import mean_tone, paint_skin
-from emogen_core.rigs.look.zones import make_zones
+from emogen_core.rigs.look.zones import skin_fields
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
     from emogen_core.rigs.source import Source
 
 PAINTED, SHIPPED = 2048, 1024
-_QUALITY = 90
+_FAR_FROM_LIDS = 0.2  # decimetres
 # How far a lid's margin may lie from its inner rim: sideways, up and down, and forward, millimetres.
 _COLUMN, _LEVEL, _MARGIN = 1.2, 1.3, 5.0
 
@@ -56,8 +57,8 @@ def build_look(  # noqa: PLR0913 - the last three by keyword
         rig: the bundled rig.
         source: the CC0 data that the rig was built from.
         path: the file to write.
-        only: presets to paint, by identity; all by default. Identities left out wear the first one's style.
-        painted: size at which textures are painted before they are reduced.
+        only: identities to bake light for; all by default. Identities left out wear the first one's style.
+        painted: size at which layers are painted before they are reduced.
         progress: is told what is being done.
 
     Returns:
@@ -66,39 +67,36 @@ def build_look(  # noqa: PLR0913 - the last three by keyword
     progress("laying out")
     geometry = build_geometry(source)
     lips, ears = (_mask(source, name) for name in ("lips", "ears"))
-    gloss = _gloss(geometry, lips)
-    atlas = build_atlas(geometry, gloss)
+    atlas = build_atlas(geometry, _gloss(geometry, lips))
+    progress("painting")
     canvas = make_canvas(geometry, atlas, painted)
-    zones = make_zones(canvas, lips, ears, _rim_distance(geometry, canvas), _canvas_occlusion(rig, atlas, canvas))
-    chosen = [preset for preset in presets() if only is None or preset.name in only]
-    skins, styles = {}, {}
-    for preset in chosen:
-        progress(f"painting {preset.name}")
-        picture = paint_skin(canvas, zones, preset)
-        skins[f"skin-{preset.name}"] = _webp(picture)
-        styles[preset.name] = _style(preset, mean_tone(canvas, picture))
-    progress("tracing light")
+    lids, occlusion = _lid_distances(geometry, canvas), _canvas_occlusion(rig, atlas, canvas)
+    paint = make_paint(canvas, skin_fields(canvas, lips, ears, lids, occlusion), ears, min(painted, SHIPPED))
     place = (geometry.positions[atlas.layers["skin"].source] / 100).astype(np.float32)
-    ear = sample_mask(ears, atlas.body_uv)
-    baked = {}
-    for preset in chosen:
-        hair = hair_thickness(place, ear, preset) * (atlas.layers["skin"].surface[:, 0] == 1) / HAIR_DEPTH
-        for name in (preset.name, *(alias for alias, of in ALIASES.items() if of == preset.name)):
-            styles[name] = replace(styles[preset.name], bake=name)
-            baked[name] = np.column_stack([_relaxed(bake(rig, name), atlas, geometry, lips), hair])
-    on_skin = atlas.layers["skin"].surface[:, :1] == 1
+    on_skin = atlas.layers["skin"].surface[:, 0] == 1
     layers, left = seen_layers(rig, atlas.layers)
+    kept = left["skin"]
+    paint["scalp"] = scalp(place, sample_mask(ears, atlas.body_uv), on_skin)[kept]
+    chosen = {name: look for name, look in presets().items() if only is None or name in only}
+    styles, baked = {}, {}
+    composer = Composer(paint)
+    for name, appearance in chosen.items():
+        progress(f"tracing light on {name}")
+        light = _relaxed(bake(rig, name), atlas, geometry, lips)[kept]
+        baked[name] = np.column_stack([light, composer.hair(appearance) / HAIR_DEPTH])
+        styles[name] = style_of(name, appearance, composer.tone(appearance))
     look = Look(
         name="emogen head",
         topology=topology_hash(rig),
         layers=layers,
         styles=styles,
-        default=next(iter(ALIASES)) if next(iter(ALIASES)) in styles else chosen[0].name,
-        textures={**skins, **_shared(canvas, chosen)},
-        bakes={name: light[left["skin"]] for name, light in baked.items()},
-        wrinkle_masks=(wrinkles.masks(place) * on_skin)[left["skin"]],
+        default=next(iter(chosen)),
+        textures={"relief": _relief(canvas)},
+        bakes=baked,
+        wrinkle_masks=(wrinkles.masks(place) * on_skin[:, None])[kept],
         wrinkle_drivers=wrinkles.drivers(),
         edges=_edges(geometry, rig),
+        paint=paint,
     )
     return replace(look, hash=save_look(path, look))
 
@@ -108,43 +106,11 @@ def _mask(source: Source, name: str) -> NDArray[np.float32]:
         return np.asarray(picture.convert("L"), np.float32) / np.float32(255)
 
 
-def _style(preset: Preset, tone: tuple[float, float, float]) -> Style:
-    red, green, blue = (round(c / 255 * (0.75 if not preset.old else 0.6), 4) for c in preset.brow)
-    return Style(
-        skin=f"skin-{preset.name}",
-        eyes=_eye_name(preset),
-        lashes=f"lashes-{preset.sex}",
-        bake=preset.name,
-        tone=tone,
-        lash=(red, green, blue),
-        wrinkles=1.0 if preset.old else 0.62,
-        lines=0.30 if preset.old else 0.0,
-        shine=0.80 if preset.old else 1.0,
-    )
-
-
-def _eye_name(preset: Preset) -> str:
-    return f"eyes-{preset.name}"
-
-
-def _shared(canvas: Canvas, chosen: list[Preset]) -> dict[str, NDArray[np.uint8]]:
-    relief = Image.fromarray(wrinkles.relief(canvas)).resize((SHIPPED, SHIPPED), Image.Resampling.BOX)
-    textures = {"relief": _packed(relief, "PNG", optimize=True)}
-    for preset in chosen:
-        textures[_eye_name(preset)] = _packed(Image.fromarray(eyes.paint_eye(preset)), "WEBP", quality=_QUALITY)
-        lashes = Image.fromarray(eyes.paint_lashes(male=preset.male))
-        textures[f"lashes-{preset.sex}"] = _packed(lashes, "PNG", optimize=True)
-    return textures
-
-
-def _webp(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    small = Image.fromarray(picture).resize((SHIPPED, SHIPPED), Image.Resampling.BOX)
-    return _packed(small, "WEBP", quality=_QUALITY, method=6)
-
-
-def _packed(picture: Image.Image, kind: str, **options: Any) -> NDArray[np.uint8]:
+def _relief(canvas: Canvas) -> NDArray[np.uint8]:
+    """Return the relief of all expression lines as the bytes of a PNG file."""
     buffer = io.BytesIO()
-    picture.save(buffer, kind, **options)
+    grey = Image.fromarray(wrinkles.relief(canvas)).resize((SHIPPED, SHIPPED), Image.Resampling.BOX)
+    grey.save(buffer, "PNG", optimize=True)
     return np.frombuffer(buffer.getvalue(), np.uint8)
 
 
@@ -182,7 +148,7 @@ def _relaxed(
     skin = atlas.layers["skin"].surface[:, 0] == 1
     lip = sample_mask(lips, atlas.body_uv) * skin
     sulcus = np.exp(-(((np.abs(x) - 0.30) / 0.17) ** 2 + ((y - 0.075) / 0.055) ** 2)) * skin * (z > -0.3)
-    for column, of_lips, of_sulcus in ((0, 0.60, 0.55), (1, 0.60, 0.62)):
+    for column, of_lips, of_sulcus in ((0, 0.60, 0.72), (1, 0.60, 0.80)):
         lift = 1 - (1 - of_lips * lip) * (1 - of_sulcus * sulcus)
         light[:, column] += (1 - light[:, column]) * lift
     kind = atlas.layers["skin"].surface[:, 0]
@@ -193,11 +159,27 @@ def _relaxed(
     return light
 
 
-def _rim_distance(geometry: HeadGeometry, canvas: Canvas) -> NDArray[np.float32]:
-    """Return (M,) distance to the vertices shared by skin and sockets, decimetres."""
+def _lid_distances(geometry: HeadGeometry, canvas: Canvas) -> NDArray[np.float32]:
+    """Return (3, M) decimetres to the inner edge of the lids, to the roots of upper and of lower lashes."""
     rim = np.intersect1d(geometry.part_vertices("skin"), geometry.part_vertices("sockets"))
-    distance, _ = cKDTree(geometry.positions[rim] / 100).query(canvas.place, distance_upper_bound=0.2, workers=-1)
-    return np.asarray(np.minimum(distance, 0.2), np.float32)
+    ways = [geometry.positions[rim], *(_lash_roots(geometry, strips) for strips in ((0, 1), (2, 3)))]
+    trees = [cKDTree(way / 100) for way in ways]
+    apart = [tree.query(canvas.place, distance_upper_bound=_FAR_FROM_LIDS, workers=-1)[0] for tree in trees]
+    return np.minimum(np.asarray(apart, np.float32), np.float32(_FAR_FROM_LIDS))
+
+
+def _lash_roots(geometry: HeadGeometry, strips: Sequence[int]) -> NDArray[np.float64]:
+    """Return (n, 3) places close together along the lower edge of strips of lashes, as far as lashes grow."""
+    vertices = geometry.part_vertices("lashes")
+    strip, along, up = geometry.surface[vertices].T
+    dense = np.linspace(*LASH_REACH, 80)
+    lines = []
+    for number in strips:
+        edge = np.flatnonzero((strip == number) & (up < 1e-6))
+        edge = edge[np.argsort(along[edge])]
+        line = geometry.positions[vertices[edge]]
+        lines.append(np.stack([np.interp(dense, along[edge], line[:, axis]) for axis in range(3)], 1))
+    return np.concatenate(lines)
 
 
 def _canvas_occlusion(rig: Rig, atlas: Atlas, canvas: Canvas) -> NDArray[np.float32]:

@@ -62,6 +62,13 @@ class Canvas:
         """(M,) out of the face."""
         return np.ascontiguousarray(self.place[:, 2])
 
+    @cached_property
+    def spacing(self) -> NDArray[np.float32]:
+        """(M,) decimetres to the next texel, across or down, whichever is farther."""
+        image = self.to_image(self.place)
+        ways = [np.linalg.norm(np.gradient(image, axis=axis), axis=-1) for axis in (0, 1)]
+        return self.from_image(np.asarray(np.maximum(*ways), np.float32))
+
     def is_part(self, name: str) -> NDArray[np.bool_]:
         """(M,) which texels belong to a part."""
         return np.asarray(self.part == SKIN_PARTS.index(name))

@@ -1,4 +1,4 @@
-"""Eyes and lashes."""
+"""Eyes and lashes: what is in an iris and a sclera whatever their colour, and single lashes."""
 
 from __future__ import annotations
 
@@ -8,103 +8,112 @@ import numpy as np
 from PIL import Image, ImageDraw
 from scipy.ndimage import gaussian_filter, map_coordinates
 
-from emogen_core.rigs.eyeballs import IRIS_DEGREES, PUPIL_DEGREES
+from emogen_core.rigs.eyeballs import IRIS_DEGREES
 from emogen_core.rigs.look.atlas import EYE_DEGREES
-from emogen_core.rigs.look.canvas import step
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from emogen_core.rigs.look.presets import Preset
-
 EYE_SIZE = 512
 LASH_SIZE = (1024, 256)
-_VEINS = 34
+_VEINS = 30
 # The strips run past the outer corner: hair there would give every face a winged eyeliner.
-_LASH_REACH = (0.05, 0.83)
+LASH_REACH = (0.05, 0.83)
+# Threads round the iris, how far they wander, weight.
+_THREADS = ((28, 0.6, 0.30), (64, 0.8, 0.34), (140, 1.0, 0.30), (260, 1.0, 0.16))
+_CRYPTS = 26
 
 
-def paint_eye(preset: Preset) -> NDArray[np.uint8]:
-    """Return the (512, 512, 4) eyeball, polar from the pole; alpha is 1 on the cornea."""
-    rows, columns = np.mgrid[:EYE_SIZE, :EYE_SIZE] + 0.5
-    x, y = columns / EYE_SIZE * 2 - 1, 1 - rows / EYE_SIZE * 2
-    degrees, angle = np.hypot(x, y) * EYE_DEGREES, np.arctan2(y, x)
-    r = degrees / IRIS_DEGREES
-    colour = _sclera(degrees, preset)
-    iris = _iris(r, angle, y, preset)
-    colour += (iris - colour) * step(r, 1.02, 0.93)[..., None]
-    # A dark ring where the sclera laps over the iris.
-    ring = np.exp(-(((r - 0.955) / 0.075) ** 2))[..., None]
-    colour *= 1 - ring * np.array([0.56, 0.54, 0.50])
-    pupil = step(degrees, PUPIL_DEGREES * 1.06, PUPIL_DEGREES * 0.93)[..., None]
-    colour = colour * (1 - pupil) + 0.02 * pupil
-    cornea = step(degrees, 29, 25)[..., None]
-    return np.asarray(np.round(np.concatenate([colour.clip(0, 1), cornea], -1) * 255), np.uint8)
+def iris() -> NDArray[np.uint8]:
+    """Return (512, 512): light and dark threads of an iris, polar about the pupil, 128 on the mean."""
+    r, angle = _polar()
+    threads = np.sum([w * _threads(angle, r, n, k, bend) for k, (n, bend, w) in enumerate(_THREADS)], axis=0)
+    # Pits between the threads, and furrows round the outer third.
+    pits = np.zeros_like(r)
+    rng = np.random.default_rng(41)
+    for a, where, wide in zip(
+        rng.uniform(-np.pi, np.pi, _CRYPTS),
+        rng.uniform(0.46, 0.80, _CRYPTS),
+        rng.uniform(0.05, 0.11, _CRYPTS),
+        strict=True,
+    ):
+        turned = np.abs((angle - a + np.pi) % (2 * np.pi) - np.pi)
+        pits += np.exp(-((turned / wide) ** 2 + ((r - where) / (1.1 * wide)) ** 2))
+    furrows = np.sin(r * 46 + 2.0 * np.sin(3 * angle)) * np.exp(-(((r - 0.82) / 0.09) ** 2))
+    total = 0.5 + 0.20 * threads - 0.20 * np.minimum(pits, 1) + 0.035 * furrows
+    return np.asarray(np.round(255 * np.clip(total, 0, 1)), np.uint8)
 
 
-def paint_lashes(*, male: bool) -> NDArray[np.uint8]:
-    """Return (256, 1024, 4): upper lashes in the upper half, roots below, lower lashes (roots below) in the lower."""
+def veins() -> NDArray[np.uint8]:
+    """Return (512, 512): branching veins of the sclera, faint, from the back towards the iris."""
+    rng = np.random.default_rng(31)
+    image = Image.new("L", (2 * EYE_SIZE, 2 * EYE_SIZE), 0)
+    pen = ImageDraw.Draw(image)
+    for angle in rng.uniform(0, 2 * np.pi, _VEINS):
+        trunk = _vein(pen, rng, float(angle), 1.0, float(rng.uniform(0.40, 0.60)), int(rng.uniform(90, 200)))
+        for _ in range(2):
+            start = rng.uniform(0.65, 0.9)
+            _vein(pen, rng, float(np.interp(start, *trunk)), float(start), float(start - rng.uniform(0.1, 0.25)), 90)
+    small = np.asarray(image.resize((EYE_SIZE, EYE_SIZE), Image.Resampling.BOX), np.float64)
+    return np.asarray(np.clip(np.round(1.5 * gaussian_filter(small, 0.7)), 0, 255), np.uint8)
+
+
+def lashes(length: float) -> NDArray[np.uint8]:
+    """Return (256, 1024) coverage: upper lashes in the upper half, roots below, lower lashes in the lower.
+
+    Args:
+        length: of the longest, in heights of the strip; roots and leans are the same for every length.
+    """
     width, height = LASH_SIZE
     image = Image.new("L", (width * 2, height * 2), 0)
     pen = ImageDraw.Draw(image)
-    rng = np.random.default_rng([29, male])
-    for top, count, longest, dark in ((True, 150, 0.94, (150, 235)), (False, 70, 0.62, (70, 125))):
+    rng = np.random.default_rng(29)
+    for top, count, longest, dark in ((True, 130, 1.0, (180, 255)), (False, 64, 0.60, (80, 150))):
         base = height * (1 if top else 2)
-        for s in np.sort(rng.uniform(*_LASH_REACH, count)):
-            fade = min(1.0, (s - 0.02) / 0.14, (_LASH_REACH[1] + 0.04 - s) / 0.10)
-            length = longest * height * rng.uniform(0.62, 1.0) * max(0.3, fade) * (0.78 if male else 1.0)
-            lean = rng.normal(0, 10) + 60 * (s - 0.42)
-            ink = round(rng.uniform(*dark) * (0.8 if male else 1.0))
-            _lash(pen, (s * width * 2, base), length, lean, (6.0 if top else 3.6, ink))
-    alpha = np.asarray(image.resize(LASH_SIZE, Image.Resampling.BOX))
-    out = np.zeros((height, width, 4), np.uint8)
-    out[..., 3] = alpha
-    return out
+        low, high = LASH_REACH
+        # Evenly spread with a little disorder: no gaps and no clumps.
+        for s in low + (high - low) * (np.arange(count) + rng.uniform(-0.6, 0.6, count) + 0.5) / count:
+            fade = float(np.clip(min((s - 0.02) / 0.16, (high + 0.04 - s) / 0.10), 0.3, 1))
+            reach = length * longest * height * rng.uniform(0.55, 1.0) * fade
+            lean = rng.normal(0, 9) + 80 * (s - 0.42)
+            _lash(pen, (s * width * 2, base), reach, lean, (8.5 if top else 4.5, round(rng.uniform(*dark))))
+    return np.asarray(image.resize(LASH_SIZE, Image.Resampling.BOX))
 
 
 def _lash(
     pen: ImageDraw.ImageDraw, root: tuple[float, float], length: float, lean: float, body: tuple[float, int]
 ) -> None:
-    t = np.linspace(0, 1, 7)
+    t = np.linspace(0, 1, 9)
     x, y = root[0] + lean * t**1.6, root[1] - length * t
-    for k in range(6):
-        pen.line([x[k], y[k], x[k + 1], y[k + 1]], fill=body[1], width=max(1, round(body[0] * (1 - 0.8 * t[k]))))
+    for k in range(8):
+        ink = round(body[1] * (1 - 0.35 * t[k]))
+        pen.line([x[k], y[k], x[k + 1], y[k + 1]], fill=ink, width=max(1, round(body[0] * (1 - 0.8 * t[k]))))
 
 
-def _sclera(degrees: NDArray[np.float64], preset: Preset) -> NDArray[np.float64]:
-    white = np.array([236, 231, 225]) / 255 - (np.array([0.03, 0.045, 0.07]) if preset.deep or preset.old else 0)
-    back = step(degrees, 34, 78)[..., None]
-    colour = white * (1 - back * np.array([0.05, 0.20, 0.20]))
-    return np.asarray(colour - _veins()[..., None] * step(degrees, 30, 60)[..., None] * np.array([0.06, 0.22, 0.20]))
+def _vein(  # noqa: PLR0913, PLR0917 - where it starts and ends
+    pen: ImageDraw.ImageDraw, rng: np.random.Generator, angle: float, start: float, end: float, ink: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Draw one vein inward; return radii, rising, and the angle at each."""
+    t = np.linspace(start, end, 24)
+    bent = angle + np.cumsum(rng.normal(0, 0.020, 24)) * np.linspace(1, 1.6, 24)
+    points = EYE_SIZE * (1 + np.stack([t * np.cos(bent), t * np.sin(bent)], 1))
+    for k in range(23):
+        pen.line([*points[k], *points[k + 1]], fill=round(ink * (1 - 0.6 * k / 23)), width=2 if k < 12 else 1)
+    return t[::-1], bent[::-1]
 
 
-def _veins() -> NDArray[np.float64]:
-    rng = np.random.default_rng(31)
-    image = Image.new("L", (EYE_SIZE, EYE_SIZE), 0)
-    pen = ImageDraw.Draw(image)
-    for angle in rng.uniform(0, 2 * np.pi, _VEINS):
-        t = np.linspace(1, rng.uniform(0.42, 0.60), 16)
-        bent = angle + np.cumsum(rng.normal(0, 0.022, 16))
-        points = EYE_SIZE / 2 * (1 + np.stack([t * np.cos(bent), t * np.sin(bent)], 1))
-        pen.line([*points.ravel()], fill=int(rng.uniform(70, 190)), width=1)
-    return np.asarray(gaussian_filter(np.asarray(image, np.float64) / 255, 0.8))
+def _polar() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return (512, 512) distance from the pupil's middle in radii of the iris, and angle."""
+    rows, columns = np.mgrid[:EYE_SIZE, :EYE_SIZE] + 0.5
+    x, y = columns / EYE_SIZE * 2 - 1, 1 - rows / EYE_SIZE * 2
+    return np.hypot(x, y) * EYE_DEGREES / IRIS_DEGREES, np.arctan2(y, x)
 
 
-def _iris(
-    r: NDArray[np.float64], angle: NDArray[np.float64], y: NDArray[np.float64], preset: Preset
+def _threads(
+    angle: NDArray[np.float64], r: NDArray[np.float64], count: int, seed: int, bend: float
 ) -> NDArray[np.float64]:
-    base = np.array(preset.iris) / 255 * 0.84
-    fibres = sum(_fibres(angle, r, n, k) * a for k, (n, a) in enumerate(((40, 0.16), (95, 0.15), (210, 0.10))))
-    collar = np.exp(-(((r - 0.50) / 0.10) ** 2))
-    bright = 1.12 + fibres + 0.22 * collar - 0.34 * step(r, 0.58, 1.0)
-    # The light that enters above is gathered in the lower half.
-    bright = bright + 0.26 * step(y, 0.06, -0.16) * step(r, 0.35, 0.6)
-    warm = collar[..., None] * np.array([0.09, 0.04, -0.03]) * (1.0 if base[2] > base[0] * 0.9 else 0.35)
-    return np.asarray(base * bright[..., None] + warm)
-
-
-def _fibres(angle: NDArray[np.float64], r: NDArray[np.float64], count: int, seed: int) -> NDArray[np.float64]:
     """Return radial threads, ``count`` round the iris, wandering a little on their way out."""
     table = np.random.default_rng([37, seed]).standard_normal((6, count))
-    rows = np.stack([(r.clip(0, 1.2) * 4).ravel(), ((angle / (2 * np.pi)) % 1 * count).ravel()])
+    turned = angle / (2 * np.pi) + 0.004 * bend * np.sin(9 * r + 5 * np.sin(2 * angle))
+    rows = np.stack([(r.clip(0, 1.2) * 4).ravel(), (turned % 1 * count).ravel()])
     return np.asarray(map_coordinates(table, rows, order=1, mode="grid-wrap").reshape(r.shape))

@@ -22,10 +22,22 @@ def value_noise(place: NDArray[np.float32], frequency: float, seed: int) -> NDAr
     return np.asarray(map_coordinates(table, rows, order=1, mode="grid-wrap"), np.float32) * np.float32(1.25)
 
 
-def fractal(place: NDArray[np.float32], amplitudes: dict[float, float], seed: int) -> NDArray[np.float32]:
-    """Return (M,) the sum of noises, frequency -> amplitude."""
-    octaves = [a * value_noise(place, f, seed * 100 + i) for i, (f, a) in enumerate(amplitudes.items())]
-    return np.asarray(np.sum(octaves, axis=0), np.float32)
+def fractal(
+    place: NDArray[np.float32],
+    amplitudes: dict[float, float],
+    seed: int,
+    spacing: NDArray[np.float32] | None = None,
+) -> NDArray[np.float32]:
+    """Return (M,) the sum of noises, frequency -> amplitude.
+
+    With (M,) ``spacing``, the way between texels in units of ``place``, noise that a texel cannot carry is left out:
+    it would show as streaks where the texture is stretched.
+    """
+    total = np.zeros(len(place), np.float32)
+    for i, (frequency, amplitude) in enumerate(amplitudes.items()):
+        octave = amplitude * value_noise(place, frequency, seed * 100 + i)
+        total += octave if spacing is None else octave * np.clip(2 - 4 * frequency * spacing, 0, 1)
+    return total
 
 
 def band_noise(size: int, fine: float, coarse: float, seed: int) -> NDArray[np.float32]:

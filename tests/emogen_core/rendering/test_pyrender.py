@@ -188,7 +188,9 @@ def test_a_refused_face_leaves_the_next_one_whole(renderer):
 
 
 def test_closed_eyes_hide_the_iris(renderer):
-    wide, shut = renderer.draw("female", faces({}, {"lidsClose": 1}), RenderSettings(400, 480)).astype(int)
+    wide, shut = renderer.draw("caucasian-female-young", faces({}, {"lidsClose": 1}), RenderSettings(400, 480)).astype(
+        int
+    )
     blue = [((p[..., 2] > p[..., 0] + 10) & (p[..., 2] > 60)).sum() for p in (wide, shut)]
     assert blue[0] > 40
     assert blue[1] < 0.1 * blue[0]
