@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from emogen_core.errors import InvalidInputError, expected
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Sequence
     from dataclasses import Field
 
 Colour = tuple[int, int, int]
@@ -105,7 +105,7 @@ def mixed(shares: Iterable[tuple[Appearance, float]]) -> Appearance:
     )
 
 
-def parameters() -> list[Mapping[str, Any]]:
+def parameters() -> list[dict[str, Any]]:
     """Return what the documentation tells of every field: name, default, meaning, and low and high of an amount."""
     return [{"name": each.name, "default": each.default, **each.metadata} for each in _FIELDS]
 

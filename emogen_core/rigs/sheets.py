@@ -11,6 +11,7 @@ from emogen_core.rendering.setup import make_renderer
 from emogen_core.rigs.collision_sheet import collision_sheet
 from emogen_core.rigs.combination_sheet import combination_sheet
 from emogen_core.rigs.contact import FACE, PORTRAIT, QUALITY, Frame, Tile, contact_sheet
+from emogen_core.rigs.look.sheet import appearance_sheet
 from emogen_core.rigs.random_faces import active_genes
 
 if TYPE_CHECKING:
@@ -91,6 +92,7 @@ def random_sheet(renderer: Renderer, rig: Rig) -> Image.Image:
 SHEETS: dict[str, Sheet] = {
     "genes": genes_sheet,
     "identities": identities_sheet,
+    "appearance": appearance_sheet,
     "emotions": emotions_sheet,
     "emotions-all": all_emotions_sheet,
     "random": random_sheet,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from emogen_core.errors import IdentityError, expected
+from emogen_core.face.appearance import Appearance
 from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.face.identity import Identity, identity_document, identity_hash, is_adult, load_identity, save_identity
 from emogen_core.face.space_file import load_bundled_space
@@ -117,14 +117,15 @@ def draw(name: Name, out: Out, width: Width = 400, height: Height = 480, backend
 
 
 def portrait(identity: Identity, space: IdentitySpace, width: int, height: int, backend: str) -> bytes:
-    """Return the PNG of an identity's neutral, in the style of the preset that it is nearest to."""
+    """Return the PNG of an identity's neutral, in its own appearance or that of the preset it is nearest to."""
     wearing, setup = import_module("emogen_core.rigs.wear"), import_module("emogen_core.rendering.setup")
     pipeline = import_module("emogen_core.correctives.pipeline")
     settings = import_module("emogen_core.rendering.protocol").RenderSettings(width, height)
     rig, worn = wearing.wear(load_bundled_rig(), space, identity, children=True)
     look = setup.look_for(rig)
     nearest = look.style(wearing.nearest_preset(identity.head, space))
-    renderer = setup.renderer_for(backend, rig, replace(look, styles={**look.styles, worn: nearest}))
+    appearance = Appearance.from_document(identity.appearance) if identity.appearance else nearest.appearance
+    renderer = setup.renderer_for(backend, rig, look.with_style(worn, appearance, nearest.bake))
     weights = pipeline.face_weights(rig, worn, import_module("numpy").zeros((1, len(rig.genes)))).weights
     pixels = renderer.draw(worn, weights, settings)[0]
     renderer.close()

@@ -9,7 +9,7 @@ import numpy as np
 from emogen_core.rendering.composer.brows import Brows
 from emogen_core.rendering.composer.eye import Eye
 from emogen_core.rendering.composer.hair import lay_hair, thickness
-from emogen_core.rendering.composer.layers import RANGES, needed, unpack, unpack_grey
+from emogen_core.rendering.composer.layers import Layers, needed, unpack_grey
 from emogen_core.rendering.composer.skin import bare_skin, lay_beard, lay_lids, lay_lips
 
 if TYPE_CHECKING:
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
     from emogen_core.face.appearance import Appearance
 
+# What is left of red, green and blue where so much light gets in, 0 to 255: dark places are red.
+_CAVITY = np.linspace(0, 1, 256, dtype=np.float32)[:, None] ** np.array([0.50, 0.74, 0.78], np.float32)
 # How yellow teeth swallow light, at most.
 _STAINED = np.array([0.10, 0.20, 0.42], np.float32)
 
@@ -32,9 +34,8 @@ class Composer:
         Raises:
             RigFileError: a layer is missing.
         """
-        self._fields = {name: unpack(name, np.asarray(needed(paint, name), np.uint8)) for name in RANGES}
-        self._cavity = self._fields["cavity"][:, None] ** np.array([0.50, 0.74, 0.78], np.float32)
-        self.size = round(len(self._fields["blood"]) ** 0.5)
+        self._fields = Layers(paint)
+        self.size = round(len(self._fields.grey("blood")) ** 0.5)
         inside = unpack_grey(np.asarray(needed(paint, "inside"), np.uint8)) / np.float32(255)
         self._inside = np.moveaxis(inside.reshape(4, -1, inside.shape[1]), 0, -1)
         self._cheeks = np.asarray(needed(paint, "cheeks"), np.intp)
@@ -48,7 +49,7 @@ class Composer:
         lay_lids(colour, self._fields, look)
         lay_beard(colour, self._fields, look)
         lay_hair(colour, self._fields, look)
-        colour *= self._cavity
+        colour *= _CAVITY[self._fields.grey("cavity")]
         image = colour.reshape(self.size, self.size, 3)
         top, left = self._brows.corner
         height, width = self._brows.shape

@@ -7,6 +7,7 @@ Skin layers are grey pictures on the skin's texture, kept as JPEG in 8 bits over
 from __future__ import annotations
 
 import io
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,7 +16,7 @@ from PIL import Image
 from emogen_core.errors import RigFileError, expected
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator
 
     from numpy.typing import NDArray
 
@@ -56,10 +57,28 @@ def pack(name: str, image: NDArray[np.floating]) -> NDArray[np.uint8]:
     return pack_grey(grey, _QUALITY.get(name, _USUAL))
 
 
-def unpack(name: str, data: NDArray[np.uint8]) -> NDArray[np.float32]:
-    """Return a layer's (size * size,) float32 values."""
-    low, high = RANGES[name]
-    return np.float32(low) + np.float32((high - low) / 255) * unpack_grey(data).ravel()
+class Layers(Mapping[str, "NDArray[np.float32]"]):
+    """The skin layers of a look by name, (size * size,) float32 each; kept in 8 bits, for every worker has them."""
+
+    def __init__(self, paint: Mapping[str, NDArray[np.generic]]) -> None:
+        """Decode the files. Raises `RigFileError` where one is missing."""
+        self._bytes = {name: unpack_grey(np.asarray(needed(paint, name), np.uint8)).ravel() for name in RANGES}
+
+    def __getitem__(self, name: str) -> NDArray[np.float32]:
+        low, high = RANGES[name]
+        values: NDArray[np.float32] = self._bytes[name] * np.float32((high - low) / 255)
+        values += np.float32(low)
+        return values
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._bytes)
+
+    def __len__(self) -> int:
+        return len(self._bytes)
+
+    def grey(self, name: str) -> NDArray[np.uint8]:
+        """Return a layer as it is stored, 0 to 255 from the least to the greatest value."""
+        return self._bytes[name]
 
 
 def pack_grey(grey: NDArray[np.uint8], quality: int) -> NDArray[np.uint8]:
@@ -69,10 +88,10 @@ def pack_grey(grey: NDArray[np.uint8], quality: int) -> NDArray[np.uint8]:
     return np.frombuffer(buffer.getvalue(), np.uint8)
 
 
-def unpack_grey(data: NDArray[np.uint8]) -> NDArray[np.float32]:
-    """Return the (h, w) float32 values, 0 to 255, of a grey picture."""
+def unpack_grey(data: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """Return the (h, w) values of a grey picture."""
     with Image.open(io.BytesIO(data.tobytes())) as picture:
-        return np.asarray(picture.convert("L"), np.float32)
+        return np.asarray(picture.convert("L"))
 
 
 def needed(paint: Mapping[str, NDArray[np.generic]], name: str) -> NDArray[np.generic]:

@@ -8,17 +8,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
+from emogen_core.face.appearance import Appearance
 from emogen_core.rendering.composer.tones import REFERENCE_TONES, natural_lips
 from emogen_core.rendering.protocol import RenderSettings
-from emogen_core.rendering.setup import load_dressed, renderer_for
+from emogen_core.rendering.setup import look_for
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-    from pathlib import Path
+    from collections.abc import Callable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
-    from emogen_core.face.appearance import Appearance
     from emogen_core.face.rig import Rig
     from emogen_core.rendering.look import Look
     from emogen_core.rendering.protocol import Renderer
@@ -27,7 +26,7 @@ if TYPE_CHECKING:
     Row = tuple[tuple[float, float, float, float], list[Tile]]
 
 COLUMNS = 10
-_SIZE, _CAPTION, _QUALITY = 240, 16, 86
+_SIZE, _CAPTION = 240, 16
 _CLOSE = 700
 # What is cut out of a picture, as shares of it: left, top, right, bottom.
 _WHOLE, _EYES, _BROWS, _HEAD = (0, 0, 1, 1), (0.27, 0.36, 0.49, 0.51), (0.30, 0.28, 0.72, 0.46), (0.1, 0, 0.9, 0.8)
@@ -46,32 +45,20 @@ _HAIRS = {
 }  # fmt: skip
 
 
-def appearance_sheet(path: Path, identity: str = "female", backend: str = "pyrender") -> Path:
-    """Draw ladders of skin, irises, brows and hair on one head; return the JPEG file written.
-
-    Args:
-        path: the file to write.
-        identity: the head that wears all of it.
-        backend: which renderer draws.
-
-    Raises:
-        InvalidInputError: no such identity.
-        MissingGLError: ``pyrender`` on a machine without OpenGL.
-    """
-    rig, look = load_dressed()
-    base = look.style(identity).appearance
-    assert base is not None, "the bundled look composes every style"
+def appearance_sheet(renderer: Renderer, rig: Rig) -> Image.Image:
+    """Draw ladders of skin, irises, brows and hair on the rig's first head, with a renderer of the given kind."""
+    identity, look = rig.identities[0], look_for(rig)
+    base = look.style(identity).appearance or Appearance()
     rows = [*_skins(base), *_eyes(base), *_brows(base), *_hair(base)]
-    renderer = _dressed(rig, look, identity, rows, backend)
-    strips = [_strip(renderer, number, row, len(rig.shape_names)) for number, row in enumerate(rows)]
+    dressed = _dressed(type(renderer), rig, look, identity, rows)
+    strips = [_strip(dressed, number, row, len(rig.shape_names)) for number, row in enumerate(rows)]
+    dressed.close()
     sheet = Image.new("RGB", (COLUMNS * _SIZE, sum(strip.height for strip in strips)), "white")
     top = 0
     for strip in strips:
         sheet.paste(strip, (0, top))
         top += strip.height
-    renderer.close()
-    sheet.save(path, quality=_QUALITY)
-    return path
+    return sheet
 
 
 def _skins(base: Appearance) -> Iterator[Row]:
@@ -123,16 +110,18 @@ def _hair(base: Appearance) -> Iterator[Row]:
     yield _HEAD, [*curls, *grey, *bald]
 
 
-def _dressed(rig: Rig, look: Look, identity: str, rows: Sequence[Row], backend: str) -> Renderer:
+def _dressed(
+    kind: Callable[[Rig, Look], Renderer], rig: Rig, look: Look, identity: str, rows: Sequence[Row]
+) -> Renderer:
     """Return a renderer whose rig has the same head once for every tile, each in its own style."""
-    neutral = rig.neutral(identity)
-    names = [_name(row, column) for row, (_, tiles) in enumerate(rows) for column in range(len(tiles))]
-    looks = [worn for _, tiles in rows for _, worn in tiles]
-    for name, worn in zip(names, looks, strict=True):
-        look = look.with_style(name, worn, bake=look.style(identity).bake)
+    bake = look.style(identity).bake
+    names = []
+    for row, (_, tiles) in enumerate(rows):
+        for column, (_, worn) in enumerate(tiles):
+            names.append(_name(row, column))
+            look = look.with_style(names[-1], worn, bake)
     same = {name: rig.adjustments[identity] for name in names if identity in rig.adjustments}
-    heads = replace(rig, neutrals=dict.fromkeys(names, neutral), adjustments=same)
-    return renderer_for(backend, heads, look)
+    return kind(replace(rig, neutrals=dict.fromkeys(names, rig.neutral(identity)), adjustments=same), look)
 
 
 def _name(row: int, column: int) -> str:

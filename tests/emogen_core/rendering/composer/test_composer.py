@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from emogen_core.errors import InvalidInputError, RigFileError
 from emogen_core.face.appearance import Appearance, parameters
 from emogen_core.rendering.composer import Composer
-from emogen_core.rendering.composer.layers import RANGES, pack, unpack
+from emogen_core.rendering.composer.layers import RANGES, Layers, pack
 from emogen_core.rendering.composer.tones import REFERENCE_TONES, lightness, natural_lips, skin_tone
 from emogen_core.rendering.look import HAIR_DEPTH
 from emogen_core.rendering.plain import plain_look
@@ -219,11 +219,13 @@ def test_a_look_without_paint_says_so():
         plain_look(ball_rig()).with_style("somebody", PLAIN)
 
 
-@pytest.mark.parametrize("name", RANGES)
-def test_a_layer_survives_its_file(name):
-    low, high = RANGES[name]
-    ramp = np.linspace(low, high, 64, dtype=np.float32)[None].repeat(64, 0)
-    assert unpack(name, pack(name, ramp)).reshape(64, 64) == pytest.approx(ramp, abs=0.02 * (high - low))
+def test_layers_survive_their_file():
+    ramps = {n: np.linspace(*bounds, 64, dtype=np.float32)[None].repeat(64, 0) for n, bounds in RANGES.items()}
+    layers = Layers({name: pack(name, ramp) for name, ramp in ramps.items()})
+    assert list(layers) == list(RANGES)
+    assert len(layers) == len(RANGES)
+    for name, (low, high) in RANGES.items():
+        assert layers[name].reshape(64, 64) == pytest.approx(ramps[name], abs=0.02 * (high - low))
 
 
 def test_the_file_stays_small():
