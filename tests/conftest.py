@@ -26,6 +26,7 @@ class FakeDrawer:
     def __init__(self, rig):
         self.rig = rig
         self.drawn = []
+        self.heads = {}
         self.hold = False
         self.waiting = []
         self.lock = threading.Lock()
@@ -33,9 +34,10 @@ class FakeDrawer:
     def key(self, identity, weights, settings):
         return portrait_key(self.rig.hash, "no look", "fake", identity, weights, settings)
 
-    def submit(self, identity, weights, settings, priority):
+    def submit(self, identity, weights, settings, priority, head=None):
         future = Future()
         with self.lock:
+            self.heads[identity] = head
             self.drawn.append((self.key(identity, weights, settings), priority))
             self.waiting.append(future)
         if not self.hold:

@@ -28,6 +28,7 @@ DECIMALS = 4
 NAME_LENGTH = 80
 APPEARANCE_BYTES = 16 * 1024
 DOCUMENT_BYTES = 64 * 1024
+_HASH_LETTERS = 12
 
 _REQUIRED = {"format", "version", "name", "head"}
 _OPTIONAL = {"appearance", "space", "hash"}
@@ -69,10 +70,21 @@ def identity_document(identity: Identity, space: IdentitySpace) -> dict[str, Any
     }
 
 
+def signed_document(identity: Identity, space: IdentitySpace) -> dict[str, Any]:
+    """Return the canonical document with the hashes of its space and of itself; raises as `identity_document`."""
+    hashes = {"space": space.hash, "hash": identity_hash(identity, space)}
+    return {**identity_document(identity, space), **hashes}
+
+
 def identity_hash(identity: Identity, space: IdentitySpace) -> str:
     """Return the SHA-256 (hexadecimal) of an identity in a space; raises as `identity_document`."""
     text = _canonical({"document": identity_document(identity, space), "space": space.hash})
     return hashlib.sha256(text.encode()).hexdigest()
+
+
+def worn_as(digest: str) -> str:
+    """Return the name under which rigs, studies and data know the identity of a hash."""
+    return f"custom-{digest[:_HASH_LETTERS]}"
 
 
 def read_identity(document: object, space: IdentitySpace) -> Identity:
@@ -110,8 +122,8 @@ def load_identity(path: Path, space: IdentitySpace) -> Identity:
 
 def save_identity(identity: Identity, path: Path, space: IdentitySpace) -> str:
     """Write an identity with its hashes as a JSON file and return its hash; raises as `identity_document`."""
-    digest = identity_hash(identity, space)
-    document = {**identity_document(identity, space), "space": space.hash, "hash": digest}
+    document = signed_document(identity, space)
+    digest: str = document["hash"]
     path.write_text(json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8")
     return digest
 

@@ -161,7 +161,14 @@ class Look:
         hair = self.composer.hair(appearance)[:, np.newaxis] / np.float32(HAIR_DEPTH)
         light = np.hstack([self.bakes[bake][:, :3], hair])
         style = style_of(name, appearance, self.composer.tone(appearance))
-        return replace(self, styles={**self.styles, name: style}, bakes={**self.bakes, name: light})
+        return self.changed(styles={**self.styles, name: style}, bakes={**self.bakes, name: light})
+
+    def changed(self, **fields: Any) -> Look:
+        """Return this look with some fields changed, the paint not among them: what was decoded is shared."""
+        look = replace(self, **fields)
+        if "composer" in self.__dict__:
+            look.__dict__["composer"] = self.composer
+        return look
 
     def _composed(self, name: str) -> NDArray[np.uint8]:
         kind, _, identity = name.partition("-")

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from emogen_core.rendering.protocol import RenderSettings
+    from emogen_core.rendering.worn import WornHead
 
 ATTEMPTS = 3
 BATCH = 3
@@ -48,6 +49,7 @@ class _Job:
     weights: NDArray[np.float32] = field(compare=False)
     settings: RenderSettings = field(compare=False)
     result: Future[bytes] = field(compare=False)
+    head: WornHead | None = field(compare=False)
     attempts: int = field(compare=False, default=0)
 
 
@@ -103,6 +105,7 @@ class RenderPool:
         weights: NDArray[np.float32],
         settings: RenderSettings,
         priority: int = Priority.NOW,
+        head: WornHead | None = None,
     ) -> Future[bytes]:
         """Have one face drawn.
 
@@ -111,6 +114,7 @@ class RenderPool:
             weights: (K,) weights of all shapes.
             settings: size and background.
             priority: what somebody waits for goes before what is drawn ahead.
+            head: the head itself, where the rig file does not have it; a worker is sent it once.
 
         Returns:
             A future of the PNG file. It raises `InvalidInputError` for bad input and `RenderingError` when the face
@@ -122,7 +126,7 @@ class RenderPool:
             if self._closed:
                 raise RenderingError("the pool is closed")
             self._number += 1
-            heapq.heappush(self._queue, _Job(priority, self._number, identity, alpha, settings, result))
+            heapq.heappush(self._queue, _Job(priority, self._number, identity, alpha, settings, result, head))
             self._wake.notify()
         return result
 
@@ -201,7 +205,8 @@ class RenderPool:
     def _draw(self, worker: WorkerProcess, jobs: list[_Job]) -> None:
         weights = np.stack([job.weights for job in jobs])
         try:
-            pictures = worker.draw(jobs[0].identity, weights, jobs[0].settings, self._limits[0] * len(jobs))
+            first, seconds = jobs[0], self._limits[0] * len(jobs)
+            pictures = worker.draw(first.identity, weights, first.settings, seconds, first.head)
         except LostError as error:
             worker.kill()
             self._again(jobs, str(error))

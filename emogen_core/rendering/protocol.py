@@ -9,6 +9,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from emogen_core.rendering.worn import WornHead
+
 SURROUND_LIGHT = (0xC9, 0xC9, 0xC9)
 SURROUND_DARK = (0x4B, 0x4B, 0x4B)
 
@@ -36,6 +38,14 @@ class Renderer(Protocol):
         Returns:
             (B, height, width, 3) uint8 sRGB.
         """
+        ...
+
+    def wear(self, head: WornHead) -> None:
+        """Take one more head in, to be drawn under its name."""
+        ...
+
+    def drop(self, name: str) -> None:
+        """Let a head go that was taken in."""
         ...
 
     def close(self) -> None:

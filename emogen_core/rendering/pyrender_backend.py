@@ -24,6 +24,7 @@ import numpy as np
 
 from emogen_core.errors import MissingGLError, RenderingError
 from emogen_core.rendering.camera import FAR, FIELD_OF_VIEW, NEAR, frame_head
+from emogen_core.rendering.recent import HEADS, Recent
 from emogen_core.rendering.surface import COLUMNS, LIGHT, NORMAL, POSITION, TEXTURE, TINT, Surface
 
 os.environ.setdefault("PYOPENGL_PLATFORM", "egl")
@@ -49,6 +50,7 @@ if TYPE_CHECKING:
     from emogen_core.rendering.camera import Camera
     from emogen_core.rendering.look import Layer, Look, Style
     from emogen_core.rendering.protocol import RenderSettings
+    from emogen_core.rendering.worn import WornHead
 
 _KINDS = {"skin": {}, "eyes": {"KIND_EYE": 1}, "lashes": {"KIND_LASH": 1}}
 _SUPERSAMPLING = 2
@@ -69,10 +71,10 @@ class PyrenderRenderer:
         """
         self._context = _context()
         self.surface = Surface(rig, look)
-        self._look = look
-        self._textures: dict[tuple[str, str], Any] = {}
-        self._cameras: dict[str, Camera] = {}
-        self._framed: dict[str, NDArray[np.int32]] = {}
+        # A texture that goes is never one in use: every head that is drawn asks for all of its own first.
+        self._textures: Recent[tuple[str, str], Any] = Recent(HEADS * len(look.layers), self._free)
+        self._cameras: Recent[str, Camera] = Recent()
+        self._framed: Recent[str, NDArray[np.int32]] = Recent()
         self._scene = pyrender.Scene(ambient_light=np.zeros(3), bg_color=np.ones(4))
         self._eye = self._scene.add(pyrender.PerspectiveCamera(FIELD_OF_VIEW, znear=NEAR, zfar=FAR))
         self._meshes = [self._add(name, layer) for name, layer in look.layers.items()]
@@ -86,6 +88,14 @@ class PyrenderRenderer:
             self.paint(identity, settings)
             picture[:] = self.read()
         return pictures
+
+    def wear(self, head: WornHead) -> None:
+        """Take one more head in."""
+        self.surface.wear(head)
+
+    def drop(self, name: str) -> None:
+        """Let a head go."""
+        self.surface.drop(name)
 
     def upload(self, rows: dict[str, NDArray[np.float32]]) -> None:
         """Send the (R, 14) rows of each layer to the card."""
@@ -104,10 +114,11 @@ class PyrenderRenderer:
         if self._pass is None:
             raise RenderingError("this renderer is closed")
         self._context.make_current()
-        self._dress(self._look.style(identity))
+        style = self.surface.look.style(identity)
+        self._dress(style)
         camera = self.camera(identity)
         self._frame(identity, camera)
-        self._pass.aim(camera, self._look.style(identity), settings)
+        self._pass.aim(camera, style, settings)
         pose = np.eye(4)
         pose[1:3, 3] = camera.height, camera.distance
         self._scene.set_pose(self._eye, pose)
@@ -122,9 +133,7 @@ class PyrenderRenderer:
 
     def camera(self, identity: str) -> Camera:
         """Return the camera that frames this identity."""
-        if identity not in self._cameras:
-            self._cameras[identity] = frame_head(self.surface.neutral_skin(identity))
-        return self._cameras[identity]
+        return self._cameras.get(identity, lambda: frame_head(self.surface.neutral_skin(identity)))
 
     def close(self) -> None:
         """Free the buffers and textures; the thread's context stays, since others may share it."""
@@ -151,9 +160,7 @@ class PyrenderRenderer:
     def _frame(self, identity: str, camera: Camera) -> None:
         """Draw only what shows of this identity's skin: a tenth of the pixels would be shoulders that faded out."""
         primitive = next(mesh for mesh in self._meshes if mesh.name == "skin").primitives[0]
-        if identity not in self._framed:
-            self._framed[identity] = self.surface.framed_skin(identity, camera)
-        triangles = self._framed[identity]
+        triangles = self._framed.get(identity, lambda: self.surface.framed_skin(identity, camera))
         if primitive.indices is not triangles:
             primitive.indices = triangles
             primitive._bind()
@@ -167,13 +174,19 @@ class PyrenderRenderer:
             mesh.primitives[0].material.baseColorTexture = texture
 
     def _texture(self, kind: str, name: str) -> Any:
-        if (kind, name) not in self._textures:
-            sampler = pyrender.Sampler(magFilter=GL.GL_LINEAR, minFilter=GL.GL_LINEAR_MIPMAP_LINEAR)
-            pixels = self._look.texture(name, "RGBA").copy()
-            if kind == "skin" and "relief" in self._look.textures:
-                pixels[..., 3] = self._look.texture("relief", "L")
-            self._textures[kind, name] = pyrender.Texture(source=pixels, source_channels="RGBA", sampler=sampler)
-        return self._textures[kind, name]
+        return self._textures.get((kind, name), lambda: self._painted(kind, name))
+
+    def _painted(self, kind: str, name: str) -> Any:
+        look = self.surface.look
+        sampler = pyrender.Sampler(magFilter=GL.GL_LINEAR, minFilter=GL.GL_LINEAR_MIPMAP_LINEAR)
+        pixels = look.texture(name, "RGBA").copy()
+        if kind == "skin" and "relief" in look.textures:
+            pixels[..., 3] = look.texture("relief", "L")
+        return pyrender.Texture(source=pixels, source_channels="RGBA", sampler=sampler)
+
+    def _free(self, texture: Any) -> None:
+        if self._pass is not None:
+            self._pass.free(texture)
 
 
 class _Pass(_PyrenderRenderer):
@@ -202,6 +215,12 @@ class _Pass(_PyrenderRenderer):
             "shine_scale": float(style.shine),
             "breakup": 3.2 / max(style.tone[1], 0.05),
         }
+
+    def free(self, texture: Any) -> None:
+        """Free one texture that no head wears any more."""
+        if texture in self._mesh_textures:
+            self._mesh_textures.remove(texture)
+            texture.delete()
 
     def delete(self) -> None:
         """Free the GL objects of this renderer; the shared display stays."""

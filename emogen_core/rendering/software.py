@@ -12,6 +12,7 @@ import numpy as np
 
 from emogen_core.rendering.camera import frame_head
 from emogen_core.rendering.raster import rasterise
+from emogen_core.rendering.recent import Recent
 from emogen_core.rendering.surface import NORMAL, POSITION, Surface
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from emogen_core.rendering.camera import Camera
     from emogen_core.rendering.look import Look
     from emogen_core.rendering.protocol import RenderSettings
+    from emogen_core.rendering.worn import WornHead
 
 _SUPERSAMPLING = 2
 _KEY = np.array([-0.62, 0.62, 1.0]) / np.linalg.norm([-0.62, 0.62, 1.0])
@@ -42,8 +44,16 @@ class SoftwareRenderer:
         counts = np.cumsum([0, *(len(look.layers[name].source) for name in self._layers)])
         faces = [look.layers[name].triangles + count for name, count in zip(self._layers, counts, strict=False)]
         self._triangles = np.concatenate(faces)
-        self._albedo: dict[str, NDArray[np.float32]] = {}
-        self._cameras: dict[str, Camera] = {}
+        self._albedo: Recent[str, NDArray[np.float32]] = Recent()
+        self._cameras: Recent[str, Camera] = Recent()
+
+    def wear(self, head: WornHead) -> None:
+        """Take one more head in."""
+        self._surface.wear(head)
+
+    def drop(self, name: str) -> None:
+        """Let a head go."""
+        self._surface.drop(name)
 
     def draw(self, identity: str, weights: NDArray[np.float32], settings: RenderSettings) -> NDArray[np.uint8]:
         """Draw a (B, K) batch: (B, height, width, 3) uint8 sRGB."""
@@ -71,18 +81,18 @@ class SoftwareRenderer:
         return averaged
 
     def _camera(self, identity: str) -> Camera:
-        if identity not in self._cameras:
-            self._cameras[identity] = frame_head(self._surface.neutral_skin(identity))
-        return self._cameras[identity]
+        return self._cameras.get(identity, lambda: frame_head(self._surface.neutral_skin(identity)))
 
     def _colours(self, identity: str) -> NDArray[np.float32]:
         """Return (R, 3) linear colours of the render vertices: the texture at each vertex."""
-        if identity not in self._albedo:
-            look = self._surface.look
-            style = look.style(identity)
-            sampled = [_sample(look.texture(getattr(style, name)), look.layers[name].uv) for name in self._layers]
-            self._albedo[identity] = np.concatenate(sampled) ** 2
-        return self._albedo[identity]
+        return self._albedo.get(identity, lambda: self._painted(identity))
+
+    def _painted(self, identity: str) -> NDArray[np.float32]:
+        look = self._surface.look
+        style = look.style(identity)
+        sampled = [_sample(look.texture(getattr(style, name)), look.layers[name].uv) for name in self._layers]
+        colours: NDArray[np.float32] = np.concatenate(sampled) ** 2
+        return colours
 
 
 def _turned_here(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.bool_]:

@@ -15,6 +15,8 @@ from scipy import sparse
 
 from emogen_core.face.evaluate import vertices
 from emogen_core.rendering.look import HAIR_DEPTH
+from emogen_core.rendering.recent import Recent
+from emogen_core.rendering.worn import dropped_look, dropped_rig, worn_look, worn_rig
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
     from emogen_core.face.rig import Rig
     from emogen_core.rendering.camera import Camera
     from emogen_core.rendering.look import Look
+    from emogen_core.rendering.worn import WornHead
 
 POSITION, NORMAL, TEXTURE, LIGHT, TINT = slice(0, 3), slice(3, 6), slice(6, 8), slice(8, 10), slice(10, 14)
 COLUMNS = 14
@@ -58,11 +61,19 @@ class Surface:
         inside = look.layers["skin"].surface[:, 2]
         self._inside = np.flatnonzero(inside)
         self._depth_of_mouth = inside[self._inside]
-        self._rest: dict[str, float] = {}
+        self._rest: Recent[str, float] = Recent()
         self._creased = np.flatnonzero(look.wrinkle_masks.any(axis=1))
         self._masks = np.ascontiguousarray(look.wrinkle_masks[self._creased].T)
-        self._hair: dict[str, tuple[NDArray[np.intp], NDArray[np.float32]]] = {}
-        self._templates: dict[str, dict[str, NDArray[np.float32]]] = {}
+        self._hair: Recent[str, tuple[NDArray[np.intp], NDArray[np.float32]]] = Recent()
+        self._templates: Recent[str, dict[str, NDArray[np.float32]]] = Recent()
+
+    def wear(self, head: WornHead) -> None:
+        """Take a head in; what is kept under its name stays right, for the name says what it is."""
+        self.rig, self.look = worn_rig(self.rig, head), worn_look(self.look, head)
+
+    def drop(self, name: str) -> None:
+        """Let a head go."""
+        self.rig, self.look = dropped_rig(self.rig, name), dropped_look(self.look, name)
 
     def faces(self, identity: str, weights: NDArray[np.float32]) -> Iterator[dict[str, NDArray[np.float32]]]:
         """Yield layer name -> (R, 14) float32 rows for each face of a (B, K) batch.
@@ -119,17 +130,16 @@ class Surface:
 
     def _comb(self, rows: NDArray[np.float32], identity: str) -> None:
         """Lift the hair off the scalp."""
-        if identity not in self._hair:
-            hair = self.look.bakes[self.look.style(identity).bake][:, 3]
-            haired = np.flatnonzero(hair)
-            self._hair[identity] = haired, HAIR_DEPTH * hair[haired, None]
-        haired, lift = self._hair[identity]
+        haired, lift = self._hair.get(identity, lambda: self._lift(identity))
         rows[haired, POSITION] += lift * rows[haired, NORMAL]
 
+    def _lift(self, identity: str) -> tuple[NDArray[np.intp], NDArray[np.float32]]:
+        hair = self.look.bakes[self.look.style(identity).bake][:, 3]
+        haired = np.flatnonzero(hair)
+        return haired, HAIR_DEPTH * hair[haired, None]
+
     def _template(self, identity: str) -> dict[str, NDArray[np.float32]]:
-        if identity not in self._templates:
-            self._templates[identity] = dict(self._blank(identity))
-        return self._templates[identity]
+        return self._templates.get(identity, lambda: dict(self._blank(identity)))
 
     def _blank(self, identity: str) -> Iterator[tuple[str, NDArray[np.float32]]]:
         for name, layer in self.look.layers.items():
@@ -142,9 +152,8 @@ class Surface:
             yield name, rows
 
     def _light_mouth(self, rows: NDArray[np.float32], identity: str, mesh: NDArray[np.float32]) -> None:
-        if identity not in self._rest:
-            self._rest[identity] = self._gap(self.rig.neutral(identity))
-        opening = float(_smooth(np.array((self._gap(mesh) - self._rest[identity]) / _OPEN_MOUTH)))
+        rest = self._rest.get(identity, lambda: self._gap(self.rig.neutral(identity)))
+        opening = float(_smooth(np.array((self._gap(mesh) - rest) / _OPEN_MOUTH)))
         rows[self._inside, 10] *= 1 - self._depth_of_mouth * (1 - _CLOSED_MOUTH) * (1 - opening)
         lips = mesh[self.look.edges["mouth_upper"], 2].max()
         deep = (lips - rows[self._inside, 2] - _LIT_DEPTH) / _DARK_DEPTH

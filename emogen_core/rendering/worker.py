@@ -1,8 +1,9 @@
 """One drawing process of the pool: `python -m emogen_core.rendering.worker FD BACKEND RIG LOOK`.
 
-It speaks over one inherited socket: first ("ready", (rig hash, look hash)) or ("failed", kind, sentence), then for
-every (identity, (B, K) weights, settings) it answers ("drawn", [PNG, ...]) or ("failed", kind, sentence). It ends when
-the socket closes, so it never outlives its pool.
+It speaks over one inherited socket: first ("ready", (rig hash, look hash)) or ("failed", kind, sentence). Then it is
+told ("draw", identity, (B, K) weights, settings), ("wear", `WornHead`) or ("drop", name of a head), and answers
+("done", [PNG, ...]), ("done", None) or ("failed", kind, sentence). Which heads it keeps is for the pool to say. It
+ends when the socket closes, so it never outlives its pool.
 """
 
 from __future__ import annotations
@@ -50,15 +51,21 @@ def _start(backend: str, rig: str, look: str) -> tuple[Renderer, tuple[str, str]
 def _serve(socket: Connection, renderer: Renderer) -> None:
     while True:
         try:
-            identity, weights, settings = socket.recv()
+            order = socket.recv()
         except EOFError:
             return
         try:
-            pictures = renderer.draw(identity, weights, settings)
-            answer: tuple[Any, ...] = ("drawn", [encode_png(picture) for picture in pictures])
+            answer: tuple[Any, ...] = ("done", _obey(renderer, *order))
         except Exception as error:
             answer = _failure(error)
         socket.send(answer)
+
+
+def _obey(renderer: Renderer, what: str, *given: Any) -> list[bytes] | None:
+    if what == "draw":
+        return [encode_png(picture) for picture in renderer.draw(*given)]
+    (renderer.wear if what == "wear" else renderer.drop)(*given)
+    return None
 
 
 def _failure(error: Exception) -> tuple[str, str, str]:

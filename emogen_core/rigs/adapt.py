@@ -52,11 +52,18 @@ class Fitter:
 
     def fit(self, point: Mapping[str, float]) -> tuple[NDArray[np.float32], Adjustment]:
         """Return the neutral (N, 3) of a point of the space, millimetres, and how its shapes differ from the rig's."""
+        head = self._calm(point)
+        return head.neutral.astype(np.float32), self._adjustment(head)
+
+    def neutral(self, point: Mapping[str, float]) -> NDArray[np.float32]:
+        """Return the neutral (N, 3) that `fit` gives, in half the time."""
+        return self._calm(point).neutral.astype(np.float32)
+
+    def _calm(self, point: Mapping[str, float]) -> Head:
         neutral, eye_centre = self.space.head(point)
         low, brows = self.space.low.astype(np.float64), self.rig.regions[BROWS]
         head = rested(self._topology, low, brows, Head(neutral, eye_centre), self._genes)
-        mesh = self.freed(head.neutral)
-        return mesh.astype(np.float32), self._adjustment(replace(head, neutral=mesh))
+        return replace(head, neutral=self.freed(head.neutral))
 
     def freed(self, mesh: Mesh) -> Mesh:
         """Return a rested neutral (N, 3) in which lips and teeth neither collide nor let a tooth be seen."""

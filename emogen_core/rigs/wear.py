@@ -1,14 +1,17 @@
-"""Puts a head of the space on a rig: a new rig value with one identity more, its shapes and its hash untouched."""
+"""Puts a head of the space on a rig: a new rig value with one identity more, its shapes and its hash untouched.
+
+`fit_head` gives the same head as plain data, for whoever hands it on to drawing processes.
+"""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from emogen_core.errors import InvalidInputError, expected
-from emogen_core.face.identity import identity_hash, require_adult
+from emogen_core.face.identity import identity_hash, require_adult, worn_as
 from emogen_core.face.space import ANCESTRIES, topology_hash
+from emogen_core.rendering.worn import WornHead, worn_rig
 from emogen_core.rigs.adapt import Fitter
 from emogen_core.rigs.identities import IDENTITIES
 
@@ -19,7 +22,6 @@ if TYPE_CHECKING:
     from emogen_core.face.rig import Rig
     from emogen_core.face.space import IdentitySpace
 
-_HASH_LETTERS = 12
 # Years that count as much as the other sex or another ancestry when presets are compared.
 _YEARS = 65.0
 
@@ -42,16 +44,33 @@ def wear(rig: Rig, space: IdentitySpace, identity: Identity, *, children: bool =
     name = worn_name(identity, space)
     if name in rig.neutrals:
         return rig, name
-    neutral, adjustment = fitter(rig, space).fit(identity.head)
-    return (
-        replace(rig, neutrals={**rig.neutrals, name: neutral}, adjustments={**rig.adjustments, name: adjustment}),
-        name,
-    )
+    return worn_rig(rig, fit_head(rig, space, identity)), name
+
+
+def fit_head(rig: Rig, space: IdentitySpace, identity: Identity, *, moving: bool = True) -> WornHead:
+    """Return a fitted head with its look, whatever its age.
+
+    Args:
+        rig: the face model that the space was made for.
+        space: the space of heads.
+        identity: the head; without an appearance it wears the style of the nearest preset.
+        moving: whether its shapes are fitted too, which takes longest; a neutral portrait is the same without. Such
+            a head is not the head yet, so its name ends in ``-still``.
+
+    Raises:
+        InvalidInputError: the space was made for another mesh.
+        IdentityError: the identity is no point of the space.
+    """
+    name, known = worn_name(identity, space), fitter(rig, space)
+    like = nearest_preset(identity.head, space)
+    if not moving:
+        return WornHead(f"{name}-still", known.neutral(identity.head), None, identity.appearance, like)
+    return WornHead(name, *known.fit(identity.head), identity.appearance, like)
 
 
 def worn_name(identity: Identity, space: IdentitySpace) -> str:
     """Return the name under which rigs wear an identity; raises `IdentityError` where it is no point of the space."""
-    return f"custom-{identity_hash(identity, space)[:_HASH_LETTERS]}"
+    return worn_as(identity_hash(identity, space))
 
 
 @lru_cache(maxsize=2)

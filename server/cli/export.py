@@ -19,7 +19,7 @@ Form = Annotated[Format, typer.Option("--format", help="csv or jsonl.")]
 
 
 def export(study: Study = "demo", out: Out = Path("export"), form: Form = "csv") -> None:
-    """Write every table of a study, and the data dictionary, as files."""
+    """Write every table of a study, its configurations and the data dictionary, as files."""
     exports = Exports(open_database(load_settings()))
     with plainly():
         dictionary = exports.dictionary(study)
@@ -29,5 +29,7 @@ def export(study: Study = "demo", out: Out = Path("export"), form: Form = "csv")
             with path.open("w", encoding="utf-8", newline="") as file:
                 file.writelines(exports.stream(study, table, form))
             typer.echo(str(path))
+        versions = json.dumps(exports.configurations(study), indent=2, ensure_ascii=False)
+        (out / "configurations.json").write_text(versions, encoding="utf-8")
         (out / "dictionary.json").write_text(json.dumps(dictionary, indent=2), encoding="utf-8")
     exports.database.close()

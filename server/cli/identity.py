@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from emogen_core.errors import IdentityError, expected
-from emogen_core.face.appearance import Appearance
 from emogen_core.face.bundled import load_bundled_rig
-from emogen_core.face.identity import Identity, identity_document, identity_hash, is_adult, load_identity, save_identity
+from emogen_core.face.identity import Identity, identity_hash, is_adult, load_identity, save_identity, signed_document
 from emogen_core.face.space_file import load_bundled_space
 from emogen_core.rigs.identities import IDENTITIES, preset
 
@@ -69,9 +68,7 @@ def show(name: Name) -> None:
     """Print the document of a preset or of a file, with its hashes."""
     with plainly():
         space = load_bundled_space()
-        identity = _found(name, space)
-        hashes = {"space": space.hash, "hash": identity_hash(identity, space)}
-        typer.echo(json.dumps({**identity_document(identity, space), **hashes}, indent=2, ensure_ascii=False))
+        typer.echo(json.dumps(signed_document(_found(name, space), space), indent=2, ensure_ascii=False))
 
 
 @app.command("new")
@@ -121,13 +118,13 @@ def portrait(identity: Identity, space: IdentitySpace, width: int, height: int, 
     wearing, setup = import_module("emogen_core.rigs.wear"), import_module("emogen_core.rendering.setup")
     pipeline = import_module("emogen_core.correctives.pipeline")
     settings = import_module("emogen_core.rendering.protocol").RenderSettings(width, height)
-    rig, worn = wearing.wear(load_bundled_rig(), space, identity, children=True)
-    look = setup.look_for(rig)
-    nearest = look.style(wearing.nearest_preset(identity.head, space))
-    appearance = Appearance.from_document(identity.appearance) if identity.appearance else nearest.appearance
-    renderer = setup.renderer_for(backend, rig, look.with_style(worn, appearance, nearest.bake))
-    weights = pipeline.face_weights(rig, worn, import_module("numpy").zeros((1, len(rig.genes)))).weights
-    pixels = renderer.draw(worn, weights, settings)[0]
+    plain = load_bundled_rig()
+    head = wearing.fit_head(plain, space, identity, moving=False)
+    rig = import_module("emogen_core.rendering.worn").worn_rig(plain, head)
+    renderer = setup.renderer_for(backend, plain, setup.look_for(plain))
+    renderer.wear(head)
+    weights = pipeline.face_weights(rig, head.name, import_module("numpy").zeros((1, len(rig.genes)))).weights
+    pixels = renderer.draw(head.name, weights, settings)[0]
     renderer.close()
     encoded: bytes = import_module("emogen_core.rendering.png").encode_png(pixels)
     return encoded

@@ -28,6 +28,7 @@ def serve(host: Host = None, port: Port = None) -> None:
     settings = settings.model_copy(update={"port": listening.getsockname()[1]})
     with opened(settings) as house:
         house.studies.ensure_one()
+        house.studies.prepare()
         _greet(house)
         config = uvicorn.Config(
             create_app(house),

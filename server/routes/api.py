@@ -38,6 +38,13 @@ def dictionary(study: str, request: Request, house: Services) -> dict[str, Any]:
     return {"study": study, "tables": house.exports.dictionary(study)}
 
 
+@router.get("/studies/{study}/configurations")
+def configurations(study: str, request: Request, house: Services) -> dict[str, Any]:
+    """Return every version of a study as it was frozen, identity documents included."""
+    house.tokens.check(bearer(request), "export", study)
+    return {"study": study, "versions": house.exports.configurations(study)}
+
+
 @router.get("/faces")
 def faces(ids: Ids, request: Request, house: Services) -> dict[str, list[float]]:
     """Return the weights of faces, for simulated participants."""

@@ -56,6 +56,10 @@ WHEN = (
     _whole("attempt", "How often the trial had been started again, from 0."),
     _whole("generation", "0 is the initial population."),
 )
+_HEAD = (
+    "a preset's name, or custom- and the first 12 letters of the hash of an identity document, which stands among the"
+    " identities of the configuration with this row's config_hash (address configurations, file configurations.json)."
+)
 _CLOCK = "on the page's clock, from the navigation"
 
 TABLES: dict[str, tuple[Column, ...]] = {
@@ -64,7 +68,7 @@ TABLES: dict[str, tuple[Column, ...]] = {
         _whole("number", "Order of arrival in the study, from 0."),
         _text("rig_hash", "SHA-256 of the face model."),
         _text("algorithm", "Name and version of the search."),
-        _text("condition", "The head this participant saw."),
+        _text("condition", f"The head this participant saw: {_HEAD}"),
         _text("seed", "Entropy of the trial seeds, decimal. Text, since it exceeds what a number holds."),
         _text("trial_order", "The emotions in the order they were asked for; JSON."),
         _text("recruiter", "Parameters of the recruiter that the study keeps; JSON."),
@@ -81,7 +85,7 @@ TABLES: dict[str, tuple[Column, ...]] = {
         *TRIAL,
         _whole("position", "Order within the participation, from 0; practice included."),
         _text("kind", "evolve."),
-        _text("identity", "The head that wears the rig."),
+        _text("identity", f"The head that wears the rig: {_HEAD}"),
         _text("seed", "Entropy of all random draws of this trial, decimal."),
         _whole("attempts", "How often it was started again."),
         _whole("generations", "The generation that was reached."),
@@ -107,7 +111,7 @@ TABLES: dict[str, tuple[Column, ...]] = {
         _whole("place", "Place on the screen, 1 to 10."),
         _text("origin", "elite, mean, elite-mean, kept, bred, random, protocol:EMOTION, arbitrary, neutral, fixed."),
         _text("parents", "Slots of the previous generation that it comes from; JSON."),
-        _text("identity", "The head that wears the rig."),
+        _text("identity", f"The head that wears the rig: {_HEAD}"),
         _text("rig_hash", "SHA-256 of the face model that gives the numbers their meaning."),
         _text("portrait_key", "Content key of its picture."),
         _truth("selected", "Whether it was chosen; empty without a choice."),

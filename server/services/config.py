@@ -6,7 +6,17 @@ import hashlib
 import json
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, StringConstraints, ValidationError, model_validator
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    PlainValidator,
+    StringConstraints,
+    ValidationError,
+    model_validator,
+)
+
+from emogen_core.face.identity import DOCUMENT_BYTES, worn_as
 
 from .errors import InvalidError
 
@@ -16,6 +26,24 @@ Prose = Annotated[str, StringConstraints(max_length=20_000)]
 Probability = Annotated[float, Field(ge=0, lt=1)]
 Question = Literal["intensity", "satisfaction"]
 Outcome = Literal["complete", "no_consent", "screened_out", "failed_checks"]
+
+
+def _head(value: object) -> str | dict[str, Any]:
+    if isinstance(value, str) and 1 <= len(value) <= 200:
+        return value
+    if not isinstance(value, dict) or not all(isinstance(name, str) for name in value):
+        raise ValueError(f"expected the name of a head or an identity document, got {value!r:.100}")
+    try:
+        size = len(json.dumps(value, allow_nan=False))
+    except (TypeError, ValueError, RecursionError) as error:
+        raise ValueError(f"expected plain JSON with finite numbers, got {error}") from error
+    if size > DOCUMENT_BYTES:
+        raise ValueError(f"expected at most {DOCUMENT_BYTES} bytes, got {size}")
+    return value
+
+
+Head = Annotated[str | dict[str, Any], PlainValidator(_head)]
+"""A head of the face model by its name, or an identity document: docs/identities.md."""
 
 
 class _Part(BaseModel):
@@ -85,7 +113,8 @@ class StudyConfig(_Part):
     language: Annotated[str, StringConstraints(pattern=r"^[a-z]{2,3}(-[A-Za-z0-9]{2,8})*$")] = "en"
     texts: Texts = Texts()
     emotions: Annotated[tuple[Emotion, ...], Field(min_length=1, max_length=20)]
-    identities: Annotated[tuple[Line, ...], Field(min_length=1, max_length=20)] = ("female",)
+    identities: Annotated[tuple[Head, ...], Field(min_length=1, max_length=20)] = ("female",)
+    children: bool = Field(default=False, description="whether documents of heads below 18 are allowed")
     generations: int = Field(default=10, ge=1, le=30, description="G: the trial ends with the best of this one")
     minimum: int = Field(default=1, ge=1, le=10)
     maximum: int = Field(default=10, ge=1, le=10)
@@ -111,16 +140,31 @@ class StudyConfig(_Part):
 
     def canonical(self) -> dict[str, Any]:
         """Return plain data; the same study gives the same data."""
-        return self.model_dump(mode="json")
+        data = self.model_dump(mode="json")
+        # Studies that are older than a field keep their hash.
+        return {name: value for name, value in data.items() if name not in _LATER or value != _LATER[name]}
 
     def hash(self) -> str:
         """Return the SHA-256 that goes into every row of data."""
         return hashlib.sha256(json.dumps(self.canonical(), sort_keys=True).encode()).hexdigest()
 
+    @property
+    def heads(self) -> tuple[str, ...]:
+        """The heads by the names under which the data has them; documents have to be signed."""
+        return tuple(head if isinstance(head, str) else worn_as(head["hash"]) for head in self.identities)
+
+    @property
+    def documents(self) -> dict[str, dict[str, Any]]:
+        """The identity documents by the names under which the data has their heads."""
+        return {worn_as(head["hash"]): head for head in self.identities if isinstance(head, dict)}
+
     def emotion(self, adjective: str) -> Emotion:
         """Return an emotion of the study, or the practised one."""
         known = [*self.emotions, *([self.practice] if self.practice else [])]
         return next(emotion for emotion in known if emotion.adjective == adjective)
+
+
+_LATER = {"children": False}
 
 
 def parse_config(data: Any) -> StudyConfig:

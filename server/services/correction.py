@@ -15,7 +15,7 @@ import numpy as np
 from emogen_core.correctives.pipeline import face_weights
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
     from numpy.typing import NDArray
 
@@ -47,14 +47,14 @@ class CorrectedFace:
 
 
 class Correction:
-    """The corrective pipeline of one rig. Safe to use from several threads."""
+    """The corrective pipeline of one rig and the heads that wear it. Safe to use from several threads."""
 
-    def __init__(self, rig: Rig) -> None:
-        """Take the rig whose faces are corrected."""
+    def __init__(self, rig_of: Callable[[str], Rig]) -> None:
+        """Take what gives the rig that wears a head."""
 
         @lru_cache(REMEMBERED)
         def corrected(identity: str, genes: bytes) -> CorrectedFace:
-            made = face_weights(rig, identity, np.frombuffer(genes)[np.newaxis])
+            made = face_weights(rig_of(identity), identity, np.frombuffer(genes)[np.newaxis])
             made.weights.flags.writeable = False  # shared by everyone who asks for this face
             return CorrectedFace(made.weights[0], _collision(made.collisions))
 

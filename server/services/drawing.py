@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from emogen_core.rendering.protocol import RenderSettings
+    from emogen_core.rendering.worn import WornHead
 
     from ..settings import Settings
 
@@ -35,10 +36,15 @@ class PoolDrawer:
         return self.pool.key(identity, weights, settings)
 
     def submit(
-        self, identity: str, weights: NDArray[np.float32], settings: RenderSettings, priority: int
+        self,
+        identity: str,
+        weights: NDArray[np.float32],
+        settings: RenderSettings,
+        priority: int,
+        head: WornHead | None = None,
     ) -> Future[bytes]:
         """Have a portrait drawn."""
-        return self.pool.submit(identity, weights, settings, Priority(priority))
+        return self.pool.submit(identity, weights, settings, Priority(priority), head)
 
     def close(self) -> None:
         """End the drawing processes."""

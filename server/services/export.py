@@ -45,6 +45,20 @@ class Exports:
             for table in TABLES
         }
 
+    def configurations(self, study_id: str) -> list[Row]:
+        """Return every version of a study as it was frozen; identity documents stand in there.
+
+        Raises:
+            NotFoundError: no such study.
+        """
+        with self.database.read() as tx:
+            if studies.study(tx, study_id) is None:
+                raise NotFoundError("There is no such study.", field="study", got=study_id)
+            return [
+                {"number": version.number, "config_hash": version.config_hash, "config": version.config}
+                for version in studies.versions(tx, study_id)
+            ]
+
     def stream(self, study_id: str, table: str, form: Format) -> Iterator[str]:
         """Return the lines of a table; wrong names are refused before the first line.
 

@@ -19,13 +19,16 @@ from .portraits import Portraits
 from .renewal import renew_portraits
 from .replay import Replay
 from .studies import Studies
+from .tailor import HouseTailor
 from .tokens import Tokens
+from .wardrobe import Wardrobe
 
 if TYPE_CHECKING:
     from emogen_core.face.rig import Rig
 
     from ..settings import Settings
     from .portraits import PortraitDrawer
+    from .wardrobe import Tailor
 
 
 @dataclass(frozen=True)
@@ -60,16 +63,18 @@ class House:
 
     def close(self) -> None:
         """Stop drawing and close the database."""
+        self.journal.wardrobe.close()
         self.portraits.close()
         self.database.close()
 
 
-def build_house(settings: Settings, rig: Rig, drawer: PortraitDrawer) -> House:
+def build_house(settings: Settings, rig: Rig, drawer: PortraitDrawer, tailor: Tailor | None = None) -> House:
     """Migrate the database and return all services."""
     database = open_database(settings)
     files = PortraitFiles(settings.data_dir / "portraits")
-    portraits = Portraits(drawer, files, database, settings.portrait_memory_mb * 2**20)
-    journal = Journal(database, rig, portraits)
+    wardrobe = Wardrobe(rig, tailor or HouseTailor(rig), settings.portrait_wait_seconds)
+    portraits = Portraits(drawer, files, database, wardrobe, settings.portrait_memory_mb * 2**20)
+    journal = Journal(database, rig, portraits, wardrobe)
     renew_portraits(journal)
     return House(
         settings,

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from ..store.engine import Database, Tx
     from ..store.runs_tables import Participation
     from .portraits import Portraits
+    from .wardrobe import Wardrobe
 
 
 @dataclass(frozen=True)
@@ -28,14 +29,16 @@ class Journal:
     database: Database
     rig: Rig
     portraits: Portraits
+    wardrobe: Wardrobe
 
     @cached_property
     def correction(self) -> Correction:
         """The corrective pipeline of the rig."""
-        return Correction(self.rig)
+        return Correction(self.wardrobe.rig)
 
     def evolution(self, config: StudyConfig) -> Evolution:
         """Return the search of a study."""
+        self.wardrobe.know(config)
         return Evolution(self.rig, config, self.correction, self.portraits.key)
 
     def find(self, tx: Tx, token: str, *, lock: bool = False) -> tuple[Participation, StudyConfig]:

@@ -34,9 +34,9 @@ def trial_order(config: StudyConfig, number: int, seed: int) -> list[str]:
         draws = np.random.Generator(np.random.PCG64(seed)).random(len(words))
         return [words[i] for i in np.argsort(draws, kind="stable")]
     rows = latin_square(len(words))
-    return [words[i] for i in rows[number // len(config.identities) % len(rows)]]
+    return [words[i] for i in rows[number // len(config.heads) % len(rows)]]
 
 
 def identity_for(config: StudyConfig, number: int) -> str:
     """Return the head that the `number`-th participant sees, from 0."""
-    return config.identities[number % len(config.identities)]
+    return config.heads[number % len(config.heads)]

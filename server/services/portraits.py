@@ -27,10 +27,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from emogen_core.rendering.protocol import RenderSettings
+    from emogen_core.rendering.worn import WornHead
 
     from ..store.engine import Database
     from .portrait_files import PortraitFiles
     from .steps import Walk
+    from .wardrobe import Wardrobe
 
 logger = logging.getLogger(__name__)
 
@@ -46,9 +48,14 @@ class PortraitDrawer(Protocol):
         ...
 
     def submit(
-        self, identity: str, weights: NDArray[np.float32], settings: RenderSettings, priority: int
+        self,
+        identity: str,
+        weights: NDArray[np.float32],
+        settings: RenderSettings,
+        priority: int,
+        head: WornHead | None = None,
     ) -> Future[bytes]:
-        """Have a portrait drawn; a lower `priority` goes first."""
+        """Have a portrait drawn; a lower `priority` goes first. Heads that the rig does not have come along."""
         ...
 
     def close(self) -> None:
@@ -67,11 +74,19 @@ class _Job:
 class Portraits:
     """Draws and keeps portraits."""
 
-    def __init__(self, drawer: PortraitDrawer, files: PortraitFiles, database: Database, memory_bytes: int) -> None:
+    def __init__(
+        self,
+        drawer: PortraitDrawer,
+        files: PortraitFiles,
+        database: Database,
+        wardrobe: Wardrobe,
+        memory_bytes: int,
+    ) -> None:
         self.key = drawer.key
         self._drawer = drawer
         self._files = files
         self._database = database
+        self._wardrobe = wardrobe
         self._memory = _Memory(memory_bytes)
         self._jobs: dict[str, _Job] = {}
         self._lock = threading.RLock()
@@ -91,10 +106,25 @@ class Portraits:
 
         Raises:
             NotFoundError: no face has this portrait, or it is of an older look.
+            UnavailableError: the head that it wears is still being made.
         """
         with self._lock:
             job = self._jobs.get(key)
-        return self._want(key, job.sketch if job else self._sketch(key), URGENT)
+        sketch = job.sketch if job else self._sketch(key)
+        self._wardrobe.wait(sketch.identity)
+        return self._want(key, sketch, URGENT)
+
+    def sketched(self, sketch: Sketch, head: WornHead | None = None) -> Future[bytes]:
+        """Return the promise of a portrait that no participant sees; one of a ``head`` to try on is not kept."""
+        if head is not None:
+            return self._submit(sketch, URGENT, head)
+        key = self.key(sketch.identity, sketch.weights, sketch.settings)
+        found = self.cached(key)
+        if found is None:
+            return self._want(key, sketch, URGENT)
+        done: Future[bytes] = Future()
+        done.set_result(found)
+        return done
 
     def after(self, offered: Sequence[tuple[str, Sketch]], following: Callable[[], list[Sketch]]) -> None:
         """Draw the faces that were just offered, and then those that may follow."""
@@ -135,6 +165,8 @@ class Portraits:
     def _guarded(self, work: Callable[[], None]) -> None:
         try:
             work()
+        except UnavailableError as error:
+            logger.info("not drawn ahead: %s", error)
         except Exception:
             # Drawing ahead only saves time: whatever fails here is drawn, or refused aloud, when it is asked for.
             logger.exception("drawing ahead failed")
@@ -148,7 +180,9 @@ class Portraits:
             if found is None:
                 raise NotFoundError("There is no such portrait.")
             face, version = found
-            sketch = Sketch(face.identity, unpack_weights(face.weights), settings_of(config_of(tx, version)))
+            config = config_of(tx, version)
+            sketch = Sketch(face.identity, unpack_weights(face.weights), settings_of(config))
+        self._wardrobe.know(config)
         if self.key(sketch.identity, sketch.weights, sketch.settings) != key:
             raise NotFoundError("This face has a new picture since the server was updated. Reload the page.")
         return sketch
@@ -170,9 +204,10 @@ class Portraits:
             job.drawing = self._submit(job.sketch, priority)
             self._watch(key, job)
 
-    def _submit(self, sketch: Sketch, priority: int) -> Future[bytes]:
+    def _submit(self, sketch: Sketch, priority: int, head: WornHead | None = None) -> Future[bytes]:
+        worn = head or self._wardrobe.head(sketch.identity)
         try:
-            return self._drawer.submit(sketch.identity, sketch.weights, sketch.settings, priority)
+            return self._drawer.submit(sketch.identity, sketch.weights, sketch.settings, priority, worn)
         except EmogenError as error:
             raise UnavailableError("Portraits cannot be drawn at the moment. Try again in a few seconds.", 5) from error
 

@@ -32,6 +32,8 @@ def rehearse(journal: Journal, token: str, body: AnswerBody) -> None:
 
     Raises:
         NotFoundError: unknown token.
+        UnavailableError: the head that the faces wear is still being made.
+        ConflictError: that head cannot be made.
     """
     with journal.database.read() as tx:
         participation, config = journal.find(tx, token)
@@ -41,6 +43,7 @@ def rehearse(journal: Journal, token: str, body: AnswerBody) -> None:
     if following is None:
         return
     trial, state = following
+    journal.wardrobe.wait(trial.identity)
     try:
         walk.evolution.correct(trial, state())
     except EmogenError:

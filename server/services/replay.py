@@ -72,6 +72,7 @@ class Replay:
 
         Raises:
             NotFoundError: no such participation, or recorded on another rig.
+            ConflictError: the head that it saw cannot be fitted any more.
         """
         with self.journal.database.read() as tx:
             participation = runs.participation(tx, participation_id)
@@ -84,7 +85,12 @@ class Replay:
                     expected=self.journal.rig.hash,
                     got=participation.rig_hash,
                 )
-            return self._replay(tx, participation, config_of(tx, participation.version_id))
+            config, head = config_of(tx, participation.version_id), participation.condition
+        # Fitting a head takes seconds: not inside a transaction.
+        self.journal.wardrobe.know(config)
+        self.journal.wardrobe.wait(head)
+        with self.journal.database.read() as tx:
+            return self._replay(tx, participation, config)
 
     def _replay(self, tx: Tx, participation: Participation, config: StudyConfig) -> Replayed:
         count = 0

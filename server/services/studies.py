@@ -12,6 +12,7 @@ from .clock import new_id, now
 from .config import DEMO, StudyConfig
 from .errors import InvalidError, NotFoundError
 from .evolution import params_of
+from .joining import OPEN
 
 if TYPE_CHECKING:
     from ..store.engine import Tx
@@ -47,9 +48,11 @@ class Studies:
         """Store a study, its first version and a general link to it.
 
         Raises:
-            InvalidError: the study does not fit the face model.
+            InvalidError: the study does not fit the face model, or a document in it is not one.
         """
+        config = self.journal.wardrobe.frozen(config)
         self.check(config)
+        self.journal.wardrobe.prepare(config)
         created = now()
         study = Study(id=study_id or secrets.token_hex(8), title=config.title, status=status, created_at=created)
         version = StudyVersion(
@@ -72,7 +75,7 @@ class Studies:
             InvalidError: names what does not fit.
         """
         rig = self.journal.rig
-        strange = [name for name in config.identities if name not in rig.identities]
+        strange = [name for name in config.identities if isinstance(name, str) and name not in rig.identities]
         if strange:
             raise InvalidError(
                 "The study names a head that the face model does not have.",
@@ -84,11 +87,19 @@ class Studies:
 
     def demo(self) -> StudySummary:
         """Store the demonstration study, on the heads that this face model has."""
-        known = tuple(name for name in DEMO.identities if name in self.journal.rig.identities)
+        known = tuple(name for name in DEMO.heads if name in self.journal.rig.identities)
         identities = known or self.journal.rig.identities[:1]
         with self.journal.database.read() as tx:
             free = studies.study(tx, DEMO_ID) is None
         return self.create(DEMO.model_copy(update={"identities": identities}), study_id=DEMO_ID if free else None)
+
+    def prepare(self) -> None:
+        """Have the heads of the studies that people may join fitted in the background."""
+        with self.journal.database.read() as tx:
+            open_ = [study.id for study in studies.all_studies(tx) if study.status in OPEN]
+            versions = [studies.latest_version(tx, study_id) for study_id in open_]
+        for version in filter(None, versions):
+            self.journal.wardrobe.prepare(StudyConfig.model_validate(version.config))
 
     def ensure_one(self) -> StudySummary | None:
         """Store the demonstration study when there is no study at all."""

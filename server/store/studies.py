@@ -35,6 +35,11 @@ def latest_version(tx: Tx, study_id: str) -> StudyVersion | None:
     )
 
 
+def versions(tx: Tx, study_id: str) -> Sequence[StudyVersion]:
+    """Return all versions of a study, the first one first."""
+    return tx.scalars(select(StudyVersion).where(StudyVersion.study_id == study_id).order_by(StudyVersion.number)).all()
+
+
 def version(tx: Tx, version_id: str) -> StudyVersion | None:
     """Return one version."""
     return tx.get(StudyVersion, version_id)

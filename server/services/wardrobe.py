@@ -1,0 +1,229 @@
+"""The heads that studies bring along: identity documents in, fitted heads out.
+
+A study's configuration holds the documents, so every process that reads a study can make its heads. Fitting takes
+seconds and happens outside of any transaction, one head at a time: ahead when a study is made or the server starts,
+at once for whoever waits for a head that is not ready. `rig` and `head` never wait: a transaction may use them.
+"""
+
+from __future__ import annotations
+
+import logging
+import re
+import threading
+from collections import OrderedDict
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Protocol
+
+from emogen_core.errors import EmogenError, IdentityError
+from emogen_core.face.appearance import Appearance
+from emogen_core.face.identity import read_identity, require_adult, signed_document
+from emogen_core.rendering.worn import WornHead, worn_rig
+
+from .errors import ConflictError, InvalidError, UnavailableError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from emogen_core.face.identity import Identity
+    from emogen_core.face.rig import Rig
+    from emogen_core.face.space import IdentitySpace
+
+    from .config import StudyConfig
+
+logger = logging.getLogger(__name__)
+
+LIMIT = 24
+"""Heads that one process keeps, some 6 MB each; a study has at most 20."""
+AGAIN = 5
+"""Seconds after which whoever found a head not ready may come again."""
+
+
+class Tailor(Protocol):
+    """What fits heads: the methods of the rig's builder, or a quick fake in tests."""
+
+    @property
+    def space(self) -> IdentitySpace:
+        """The space of heads."""
+        ...
+
+    def fit(self, identity: Identity, *, moving: bool = True) -> WornHead:
+        """Return a fitted head."""
+        ...
+
+
+@dataclass
+class _Peg:
+    """One head of a study, and what became of it."""
+
+    document: Mapping[str, Any]
+    head: WornHead | None = None
+    rig: Rig | None = None
+    problem: str = ""
+
+    @property
+    def done(self) -> bool:
+        return self.head is not None or bool(self.problem)
+
+
+class Wardrobe:
+    """The rig of the house, and what it wears besides its own heads. Safe to use from several threads."""
+
+    def __init__(self, rig: Rig, tailor: Tailor, patience: float = 20.0, limit: int = LIMIT) -> None:
+        """Keep `limit` heads; whoever waits for one waits `patience` seconds at most for its turn."""
+        self._rig, self._tailor, self._patience, self._limit = rig, tailor, patience, limit
+        self._pegs: OrderedDict[str, _Peg] = OrderedDict()
+        self._lock = threading.Lock()
+        self._needle = threading.Lock()
+        self._ahead = ThreadPoolExecutor(1, thread_name_prefix="heads-ahead")
+        self._closed = False
+
+    @property
+    def space(self) -> IdentitySpace:
+        """The space of heads."""
+        return self._tailor.space
+
+    def read(self, document: object, where: str = "identity", *, children: bool = True) -> Identity:
+        """Return what a document describes, its appearance checked as well.
+
+        Raises:
+            InvalidError: names the field, what was expected and what was got.
+        """
+        try:
+            identity = read_identity(document, self.space)
+            if identity.appearance:
+                Appearance.from_document(dict(identity.appearance))
+            if not children:
+                require_adult(identity, self.space)
+        except EmogenError as error:
+            raise refusal(where, error) from error
+        return identity
+
+    def frozen(self, config: StudyConfig) -> StudyConfig:
+        """Return a study whose documents are checked, canonical and signed with their hashes.
+
+        Raises:
+            InvalidError: one is not a document, or a child's where the study does not allow children's heads.
+        """
+        heads: list[str | dict[str, Any]] = []
+        for place, head in enumerate(config.identities):
+            if isinstance(head, str):
+                heads.append(head)
+            else:
+                identity = self.read(head, f"identities.{place}", children=config.children)
+                heads.append(signed_document(identity, self.space))
+        return config.model_copy(update={"identities": tuple(heads)})
+
+    def know(self, config: StudyConfig) -> None:
+        """Remember which documents a study has; nothing is fitted."""
+        with self._lock:
+            for name, document in config.documents.items():
+                self._pegs.setdefault(name, _Peg(document))
+                self._pegs.move_to_end(name)
+            while len(self._pegs) > self._limit:
+                self._pegs.popitem(last=False)
+
+    def prepare(self, config: StudyConfig) -> None:
+        """Have the heads of a study fitted in the background."""
+        self.know(config)
+        for name in config.documents:
+            self._ahead.submit(self._quietly, name)
+
+    def wait(self, identity: str) -> None:
+        """Return when a head can be worn: at once for the rig's own, else fitted here and now if need be.
+
+        Raises:
+            UnavailableError: others are being fitted for longer than anybody should wait.
+            ConflictError: this head cannot be fitted.
+        """
+        peg = self._peg(identity)
+        if peg is None:
+            return
+        if not peg.done:
+            self._fit(peg)
+        if peg.problem:
+            raise ConflictError(f"A head of this study cannot be used: {peg.problem}.", field="identities")
+
+    def rig(self, identity: str) -> Rig:
+        """Return a rig that wears a head.
+
+        Raises:
+            UnavailableError: it is not ready; `wait` makes it so.
+        """
+        peg = self._peg(identity)
+        if peg is None:
+            return self._rig
+        if peg.rig is None:
+            raise UnavailableError("A head of this study is still being made. Try again in a few seconds.", AGAIN)
+        return peg.rig
+
+    def head(self, identity: str) -> WornHead | None:
+        """Return a head as drawing processes need it, none for those that they have; raises as `rig`."""
+        self.rig(identity)
+        peg = self._peg(identity)
+        return None if peg is None else peg.head
+
+    def try_on(self, identity: Identity, *, moving: bool) -> WornHead:
+        """Return a head that no study has, fitted now and not kept; raises as `wait`."""
+        with _turn(self._needle, self._patience):
+            try:
+                return self._tailor.fit(identity, moving=moving)
+            except EmogenError as error:
+                raise refusal("identity", error) from error
+
+    def close(self) -> None:
+        """Stop fitting."""
+        self._closed = True
+        self._ahead.shutdown(wait=True, cancel_futures=True)
+
+    def _peg(self, identity: str) -> _Peg | None:
+        with self._lock:
+            return self._pegs.get(identity)
+
+    def _fit(self, peg: _Peg) -> None:
+        with _turn(self._needle, self._patience):
+            if peg.done:
+                return
+            try:
+                head = self._tailor.fit(read_identity(peg.document, self.space))
+            except EmogenError as error:
+                peg.problem = str(error)
+                return
+            peg.rig, peg.head = worn_rig(self._rig, head), head
+
+    def _quietly(self, name: str) -> None:
+        peg = self._peg(name)
+        while peg is not None and not peg.done and not self._closed:
+            try:
+                self._fit(peg)
+            except UnavailableError:
+                continue
+            except Exception:
+                logger.exception("a head could not be fitted ahead")
+                return
+
+
+class _turn:  # noqa: N801 - used as a statement
+    """A lock that is waited for so long and no longer."""
+
+    def __init__(self, lock: threading.Lock, seconds: float) -> None:
+        self._lock, self._seconds = lock, seconds
+
+    def __enter__(self) -> None:
+        if not self._lock.acquire(timeout=self._seconds):
+            raise UnavailableError("Other heads are being made. Try again in a few seconds.", AGAIN)
+
+    def __exit__(self, *_: object) -> None:
+        self._lock.release()
+
+
+def refusal(where: str, error: EmogenError) -> InvalidError:
+    """Return an error of the core as one of a field of a request."""
+    found = re.fullmatch(r"(?:(.*?): )?expected (.*), got (.*)", str(error), re.DOTALL)
+    if found is None or not isinstance(error, IdentityError | ValueError):
+        return InvalidError(f"{where}: {error}.", field=where)
+    part, wanted, got = found.groups()
+    field = ".".join([where, *([] if part in {None, "identity"} else part.split(": "))])
+    return InvalidError(
+        f"The head cannot be used: {field}: expected {wanted}, got {got}.", field=field, expected=wanted, got=got
+    )
