@@ -9,7 +9,7 @@ from fastapi import FastAPI
 from starlette.staticfiles import StaticFiles
 
 from .assets import asset
-from .routes import admin, admin_studies, api, errors, health, pages, participant, plain_forms, portraits
+from .routes import admin, admin_heads, admin_studies, api, errors, health, pages, participant, plain_forms, portraits
 from .routes.guard import Guard
 from .texts.pages import Pages
 
@@ -17,7 +17,9 @@ if TYPE_CHECKING:
     from .services.house import House
 
 
-ROUTERS = tuple(room.router for room in (participant, plain_forms, pages, portraits, api, admin, admin_studies, health))
+ROUTERS = tuple(
+    room.router for room in (participant, plain_forms, pages, portraits, api, admin, admin_studies, admin_heads, health)
+)
 
 
 def create_app(house: House) -> FastAPI:

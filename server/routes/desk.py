@@ -47,13 +47,13 @@ async def _posted(request: Request) -> Form:
 
 async def _own_form(request: Request, me: Me) -> Form:
     form = await _posted(request)
-    _check_csrf(form, me.csrf)
+    check_csrf(form, me.csrf)
     return form
 
 
 async def _visitor_form(request: Request) -> Form:
     form = await _posted(request)
-    _check_csrf(form, request.cookies.get(VISITOR, ""))
+    check_csrf(form, request.cookies.get(VISITOR, ""))
     return form
 
 
@@ -92,7 +92,8 @@ def begin_session(response: Response, token: str, settings: Settings) -> None:
     )
 
 
-def _check_csrf(form: Form, secret: str) -> None:
+def check_csrf(form: Form, secret: str) -> None:
+    """Refuse a form that does not carry the secret of whoever sends it."""
     if not secret or not hmac.compare_digest(form.get("csrf", "").encode(), secret.encode()):
         raise ForbiddenError(
             "This form is too old, or it was not made by this page. Go back, reload, and send it again."

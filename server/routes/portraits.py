@@ -31,7 +31,7 @@ async def portrait(key: Key, request: Request, house: Services) -> Response:
     picture = await run_in_threadpool(house.portraits.cached, key)
     if picture is None:
         promise = await run_in_threadpool(house.portraits.request, key)
-        picture = await _within(promise, house.settings.portrait_wait_seconds)
+        picture = await within(promise, house.settings.portrait_wait_seconds)
     if _known(request.headers.get("if-none-match", ""), key):
         return Response(status_code=304, headers=headers)
     return Response(picture, media_type="image/png", headers=headers)
@@ -41,7 +41,7 @@ def _known(tags: str, key: str) -> bool:
     return tags.strip() == "*" or key in tags
 
 
-async def _within(promise: Future[bytes], seconds: float) -> bytes:
+async def within(promise: Future[bytes], seconds: float) -> bytes:
     """Wait for a portrait; others may wait for the same one, so giving up does not stop it."""
     try:
         async with asyncio.timeout(seconds):

@@ -11,6 +11,7 @@ from ..store.migrate import upgrade
 from .accounts import Accounts
 from .answers import Answers
 from .export import Exports
+from .heads import Heads
 from .joining import Joining
 from .journal import Journal
 from .participation import Participations
@@ -41,6 +42,7 @@ class House:
     answers: Answers
     participations: Participations
     studies: Studies
+    heads: Heads
     accounts: Accounts
     tokens: Tokens
     exports: Exports
@@ -76,13 +78,15 @@ def build_house(settings: Settings, rig: Rig, drawer: PortraitDrawer, tailor: Ta
     portraits = Portraits(drawer, files, database, wardrobe, settings.portrait_memory_mb * 2**20)
     journal = Journal(database, rig, portraits, wardrobe)
     renew_portraits(journal)
+    making = Studies(journal)
     return House(
         settings,
         journal,
         Joining(journal),
         Answers(journal),
         Participations(journal),
-        Studies(journal),
+        making,
+        Heads(journal, making),
         Accounts(database, settings.session_hours, settings.login_attempts),
         Tokens(database),
         Exports(database),

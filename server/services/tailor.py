@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from emogen_core.face.space_file import load_bundled_space
+from emogen_core.rigs.wear import fit_head
 
 if TYPE_CHECKING:
     from emogen_core.face.identity import Identity
@@ -31,7 +32,4 @@ class HouseTailor:
         Raises:
             EmogenError: the space was made for another rig, or the identity is no point of it.
         """
-        # The methods of the rig's builder are loaded by those who fit heads, not by every server.
-        from emogen_core.rigs.wear import fit_head  # noqa: PLC0415
-
         return fit_head(self.rig, self.space, identity, moving=moving)

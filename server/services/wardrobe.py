@@ -23,7 +23,7 @@ from emogen_core.rendering.worn import WornHead, worn_rig
 from .errors import ConflictError, InvalidError, UnavailableError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from emogen_core.face.identity import Identity
     from emogen_core.face.rig import Rig
@@ -163,9 +163,20 @@ class Wardrobe:
         peg = self._peg(identity)
         return None if peg is None else peg.head
 
-    def try_on(self, identity: Identity, *, moving: bool) -> WornHead:
-        """Return a head that no study has, fitted now and not kept; raises as `wait`."""
+    def try_on(self, identity: Identity, wanted: Callable[[], None], *, moving: bool) -> WornHead:
+        """Return a head that no study has, fitted now and not kept.
+
+        Args:
+            identity: the head and its look.
+            wanted: called when its turn has come; raises where nobody waits for it any more.
+            moving: whether it has to do more than rest.
+
+        Raises:
+            InvalidError: it cannot be fitted.
+            UnavailableError: others are being fitted for longer than anybody should wait.
+        """
         with _turn(self._needle, self._patience):
+            wanted()
             try:
                 return self._tailor.fit(identity, moving=moving)
             except EmogenError as error:
