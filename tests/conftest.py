@@ -9,7 +9,10 @@ from concurrent.futures import Future
 import pytest
 from starlette.testclient import TestClient
 
+from emogen_core.face.space_file import load_bundled_space
 from emogen_core.rendering.keys import portrait_key
+from emogen_core.rendering.worn import WornHead
+from emogen_core.rigs.wear import worn_name
 from server.app import create_app
 from server.services.config import Emotion, StudyConfig
 from server.services.house import build_house
@@ -53,6 +56,23 @@ class FakeDrawer:
 
     def close(self):
         pass
+
+
+class FakeTailor:
+    """Fits every head to the small rig in no time; counts, and can be held."""
+
+    def __init__(self, rig):
+        self.rig = rig
+        self.space = load_bundled_space()
+        self.fitted = []
+        self.gate = threading.Event()
+        self.gate.set()
+
+    def fit(self, identity, *, moving=True):
+        self.fitted.append((identity.name, moving))
+        assert self.gate.wait(10)
+        name = worn_name(identity, self.space) + ("" if moving else "-still")
+        return WornHead(name, self.rig.neutrals["female"] + 2, None, identity.appearance, "female")
 
 
 def small_study(**changes):
@@ -103,8 +123,13 @@ def drawer(rig):
 
 
 @pytest.fixture
-def house(settings, rig, drawer):
-    made = build_house(settings, rig, drawer)
+def tailor(rig):
+    return FakeTailor(rig)
+
+
+@pytest.fixture
+def house(settings, rig, drawer, tailor):
+    made = build_house(settings, rig, drawer, tailor)
     yield made
     made.close()
 

@@ -12,7 +12,23 @@ from emogen_core.errors import InvalidInputError, MissingGLError
 class FakeRenderer:
     """Identity "head" draws; the others name the trouble that they make."""
 
+    def __init__(self):
+        self.heads, self.told = {}, 0
+
+    def wear(self, head):
+        if head.like == "refused":
+            raise InvalidInputError("appearance: expected an object, got 3")
+        self.heads[head.name] = head
+        self.told += 1
+
+    def drop(self, name):
+        del self.heads[name]
+
     def draw(self, identity, weights, settings):
+        if identity.startswith("custom-"):
+            assert identity in self.heads, "a head was drawn that had not been handed over"
+            assert len(self.heads) <= 16
+            weights = np.full_like(weights, self.told / 255)
         if identity == "slow":
             time.sleep(0.15)
         if identity == "hang":

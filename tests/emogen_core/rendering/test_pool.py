@@ -193,3 +193,50 @@ def test_workers_end_with_their_parent(tmp_path):
 def test_no_worker_is_refused():
     with pytest.raises(InvalidInputError, match="at least 1"):
         RenderPool(0)
+
+
+def custom(number, like="female"):
+    from emogen_core.rendering.worn import WornHead
+
+    return WornHead(f"custom-{number}", np.zeros((2, 3), np.float32), None, {}, like)
+
+
+def drawn(pool, head):
+    """Return how many heads the worker had been handed when it drew this one."""
+    return round(shade(pool.submit(head.name, alpha(0), SIZE, head=head).result(10)) * 255)
+
+
+def test_a_head_is_handed_to_a_worker_once_and_again_after_it_was_replaced():
+    with RenderPool(1, "fake_backend:make") as pool:
+        first, second = custom(1), custom(2)
+        assert [drawn(pool, head) for head in (first, first, second, first)] == [1, 1, 2, 2]
+        os.kill(pool.process_ids[0], signal.SIGKILL)
+        assert [drawn(pool, head) for head in (second, first, second)] == [1, 2, 2]
+
+
+def test_a_worker_keeps_the_heads_drawn_last():
+    with RenderPool(1, "fake_backend:make") as pool:
+        assert [drawn(pool, custom(number)) for number in range(16)] == list(range(1, 17))
+        assert drawn(pool, custom(0)) == 16
+        assert drawn(pool, custom(16)) == 17, "one too many: the one drawn longest ago goes"
+        assert drawn(pool, custom(0)) == 17
+        assert drawn(pool, custom(1)) == 18
+
+
+def test_a_head_that_cannot_be_dressed_costs_only_itself(pool):
+    refused = custom(3, like="refused")
+    with pytest.raises(InvalidInputError, match="appearance: expected"):
+        pool.submit(refused.name, alpha(0), SIZE, head=refused).result(10)
+    assert shade(pool.submit("head", alpha(1), SIZE).result(10)) == 1
+
+
+def test_a_large_head_to_a_worker_that_listens_no_more_is_given_up(monkeypatch):
+    monkeypatch.setattr("emogen_core.rendering.process._SEND_SECONDS", 1)
+    with RenderPool(1, "fake_backend:make") as pool:
+        from dataclasses import replace
+
+        stopped = pool.process_ids[0]
+        os.kill(stopped, signal.SIGSTOP)
+        large = replace(custom(4), neutral=np.zeros((2**20, 3), np.float32))
+        assert drawn(pool, large) == 1
+        assert pool.process_ids != [stopped]

@@ -271,3 +271,26 @@ def test_a_pool_without_gl_fails_with_that_sentence(monkeypatch):
     monkeypatch.setenv("__EGL_VENDOR_LIBRARY_DIRS", "/nowhere")
     with pytest.raises(MissingGLError, match="libgl1-mesa-dri"):
         RenderPool(1)
+
+
+def test_heads_come_and_go_and_their_textures_are_freed(monkeypatch):
+    from OpenGL import GL
+
+    from emogen_core.face.appearance import Appearance
+    from emogen_core.rendering import pyrender_backend
+    from emogen_core.rendering.worn import WornHead
+
+    monkeypatch.setattr(pyrender_backend, "HEADS", 2)
+    renderer = PyrenderRenderer(rig, look_for(rig))
+    first = renderer.draw("female", NEUTRAL, SIZE)
+    textures = []
+    for number in range(4):
+        document = Appearance(skin_depth=number / 4).to_document()
+        renderer.wear(WornHead(f"custom-{number}", rig.neutral("male"), None, document, "male"))
+        renderer.draw(f"custom-{number}", NEUTRAL, SIZE)
+        textures.append({texture._texid for texture in renderer._pass._mesh_textures})
+    assert all(len(bound) <= 6 for bound in textures), "two heads with three textures each"
+    assert not any(GL.glIsTexture(gone) for gone in set.union(*textures) - textures[-1])
+    assert all(GL.glIsTexture(kept) for kept in textures[-1])
+    assert np.array_equal(renderer.draw("female", NEUTRAL, SIZE), first), "what was freed is painted anew"
+    renderer.close()

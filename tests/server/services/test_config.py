@@ -1,5 +1,6 @@
 """What a study may be, and what is said when it may not."""
 
+import hashlib
 import json
 
 import pytest
@@ -21,6 +22,15 @@ def test_a_study_survives_json_and_keeps_its_hash():
     assert small_study(generations=3).hash() != again.hash()
 
 
+def test_a_study_from_before_there_were_documents_keeps_its_hash():
+    old = {name: value for name, value in PLAIN.items() if name != "children"}
+    assert "children" not in PLAIN
+    assert parse_config(old).hash() == hashlib.sha256(json.dumps(old, sort_keys=True).encode()).hexdigest()
+    allowed = parse_config({**old, "children": True})
+    assert allowed.canonical() == {**old, "children": True}
+    assert allowed.hash() != parse_config(old).hash()
+
+
 def test_the_demonstration_is_the_one_of_the_paper():
     assert [emotion.adjective for emotion in DEMO.emotions] == ["happy", "sad", "angry", "fearful"]
     assert (DEMO.generations, DEMO.search.mutations, DEMO.search.random_genes) == (10, 2, 6)
@@ -40,6 +50,12 @@ def test_the_demonstration_is_the_one_of_the_paper():
         ({"completion": {"redirects": {"complete": "javascript:alert(1)"}}}, "completion.redirects.complete"),
         ({"recruiter_parameters": ["a b"]}, "recruiter_parameters.0"),
         ({"minimum": 5, "maximum": 4}, "study"),
+        ({"identities": [3]}, "identities.0"),
+        ({"identities": ["female", ""]}, "identities.1"),
+        ({"identities": [{"name": float("nan")}]}, "identities.0"),
+        ({"identities": [{"name": "x" * 70_000}]}, "identities.0"),
+        ({"identities": ["female"] * 21}, "identities"),
+        ({"children": "perhaps"}, "children"),
         ({"practice": {"adjective": "happy", "noun": "happiness"}}, "study"),
     ],
 )
