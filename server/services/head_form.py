@@ -109,7 +109,7 @@ def fields(identity: Identity, appearance: Appearance, space: IdentitySpace) -> 
 def _look(name: str, known: Mapping[str, Any], value: Any) -> Control:
     label, hint = name.replace("_", " ").capitalize(), known["meaning"]
     if "low" in known:
-        return Control(f"{LOOK}{name}", label, hint, f"{value:.4g}", known["low"], known["high"])
+        return Control(f"{LOOK}{name}", label, hint, f"{value:.12g}", known["low"], known["high"])
     return Control(f"{LOOK}{name}", label, hint, "#{:02x}{:02x}{:02x}".format(*value), colour=True)
 
 
@@ -125,7 +125,7 @@ def _appearance(form: Mapping[str, str]) -> dict[str, Any]:
 
 def _number(form: Mapping[str, str], name: str) -> float:
     try:
-        return round(float(form[name]), 4)
+        return float(form[name])
     except ValueError as error:
         raise _wrong(name, "a number", form[name]) from error
 

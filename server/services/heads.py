@@ -75,7 +75,10 @@ class Heads:
         """
         if name not in self.presets:
             raise NotFoundError("There is no such head.", field="from", got=name)
-        return replace(preset(name), appearance=presets()[name].to_document())
+        look = presets()[name].to_document()
+        # Some are blends with endless decimals; nobody sees the fifth.
+        plain = {field: round(value, 4) if isinstance(value, float) else value for field, value in look.items()}
+        return replace(preset(name), appearance=plain)
 
     def read(self, document: object) -> Identity:
         """Return what a document describes; raises `InvalidError`, as a study would."""

@@ -29,7 +29,7 @@ def fields(page):
     found = {}
     for tag in re.findall(r"<input[^>]*>", editor):
         given = dict(re.findall(r'([\w-]+)="([^"]*)"', tag))
-        if "name" in given and (given["type"] if "type" in given else "") not in {"radio", "checkbox"}:
+        if "name" in given and given.get("type", "") not in {"radio", "checkbox"}:
             found[given["name"]] = html.unescape(given.get("value", ""))
         elif " checked" in tag:
             found[given["name"]] = given["value"]
@@ -75,6 +75,13 @@ def test_a_preview_has_the_hash_of_its_document(owner, form):  # noqa: F811
     assert document["head"]["details"] == {"nose-width": -0.25}
     assert document["appearance"]["skin_depth"] == float(form["look.skin_depth"])
     assert identity_hash(read_identity(document, SPACE), SPACE) == document["hash"]
+
+
+def test_the_hash_on_the_page_is_that_of_its_form(owner):  # noqa: F811
+    for name in ("female", "male"):
+        page = owner.get(f"{PAGE}?from={name}").text
+        document = owner.post(f"{PAGE}/document", data=fields(page)).json()
+        assert f'id="digest">{document["hash"][:12]}<' in page
 
 
 def test_without_script_the_page_comes_back_with_the_portrait(owner, form):  # noqa: F811
