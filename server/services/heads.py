@@ -30,6 +30,8 @@ from .evolution import Sketch
 if TYPE_CHECKING:
     from concurrent.futures import Future
 
+    from numpy.typing import NDArray
+
     from emogen_core.face.identity import Identity
     from emogen_core.face.rig import Rig
     from emogen_core.face.space import IdentitySpace
@@ -102,9 +104,7 @@ class Heads:
         """
         if name not in self.presets:
             raise NotFoundError("There is no such head.", field="name", got=name)
-        rig = self.journal.rig
-        weights = face_weights(rig, name, np.zeros((1, len(rig.genes)))).weights[0]
-        return self.journal.portraits.sketched(Sketch(name, weights, LARGE if large else SMALL))
+        return self.journal.portraits.sketched(Sketch(name, self._rest, LARGE if large else SMALL))
 
     def preview(self, identity: Identity, emotion: str, user: str) -> Future[bytes]:
         """Return the promise of a portrait of an identity that no study need have.
@@ -123,7 +123,7 @@ class Heads:
             wanted = f"one of {', '.join(self.emotions)}"
             raise InvalidError("There is no such emotion.", field="emotion", expected=wanted, got=emotion)
         head, rig = self._worn(identity, self._ticket(user), user, moving=emotion != NEUTRAL)
-        weights = np.zeros(len(rig.shape_names), np.float32)
+        weights = self._rest
         if emotion != NEUTRAL:
             weights = face_weights(rig, head.name, rig.emotion_genes(emotion)[np.newaxis]).weights[0]
         return self.journal.portraits.sketched(Sketch(head.name, weights, LARGE), head)
@@ -137,6 +137,11 @@ class Heads:
         changes = {"title": f"Picturing four emotions on {identity.name}", "children": children}
         config = DEMO.model_copy(update={**changes, "identities": (self.signed(identity),)})
         return self.studies.create(config)
+
+    @property
+    def _rest(self) -> NDArray[np.float32]:
+        """(K,) weights of a face at rest. Every head was made so that it collides with nothing then."""
+        return np.zeros(len(self.journal.rig.shape_names), np.float32)
 
     def _ticket(self, user: str) -> int:
         with self._lock:

@@ -179,11 +179,27 @@ def desk(stage, camera):
     page.get_by_role("link", name=STUDIES["pictures"]["title"]).first.click()
     page.wait_for_load_state()
     camera.take("admin-study", whole=True)
+    heads(stage, camera)
     page.goto(f"{stage.address}/admin/tokens")
     camera.take("admin-tokens", whole=True)
     page.context.clear_cookies()
     page.goto(f"{stage.address}/admin/login")
     camera.take("admin-sign-in", whole=True)
+
+
+def heads(stage, camera):
+    """The editor with a head of its own that smiles."""
+    page = camera.page
+    page.goto(f"{stage.address}/admin/heads?from=male")
+    page.wait_for_load_state("networkidle")
+    page.locator("summary", has_text="Nose").click()
+    for name, value in (("name", "Fifty-two"), ("p-age", "52"), ("p-nose-width", "0.4"), ("p-look-grey", "0.5")):
+        page.locator(f"#{name}").evaluate("(input, value) => { input.value = value }", value)
+        page.locator(f"#{name}").dispatch_event("input", {"bubbles": True})
+    page.locator("#e-happy").check(force=True)
+    page.locator("#status", has_text="Drawn in").wait_for()
+    page.evaluate("scrollTo(0, 0)")
+    camera.take("admin-heads", whole=True)
 
 
 if __name__ == "__main__":
