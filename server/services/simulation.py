@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 AT_ONCE = 4
 RATING = 4
+PATIENCE = 20
 
 
 class Reply(Protocol):
@@ -35,6 +36,11 @@ class Reply(Protocol):
     @property
     def status_code(self) -> int:
         """Return the status."""
+        ...
+
+    @property
+    def headers(self) -> Mapping[str, str]:
+        """Return the headers."""
         ...
 
     @property
@@ -162,10 +168,19 @@ class _Person:
 
     async def _send(self, body: Mapping[str, Any]) -> dict[str, Any]:
         begun = time.perf_counter()
-        reply = await self.simulation.client.post(f"{self.address}/answers", json={"id": str(uuid.uuid4()), **body})
+        reply = await self._posted({"id": str(uuid.uuid4()), **body})
         self.times.append((time.perf_counter() - begun) * 1000)
         state: dict[str, Any] = checked(reply)
         return state
+
+    async def _posted(self, body: Mapping[str, Any]) -> Reply:
+        """Send an answer, again for as long as a head is still being made: the server knows its id."""
+        for _ in range(PATIENCE):
+            reply: Reply = await self.simulation.client.post(f"{self.address}/answers", json=body)
+            if reply.status_code != 503:
+                break
+            await asyncio.sleep(float(reply.headers.get("retry-after", 1)))
+        return reply
 
     async def _answer(self, state: dict[str, Any]) -> dict[str, Any]:
         match state["step"]:

@@ -12,6 +12,7 @@ import re
 import threading
 from collections import OrderedDict
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -23,7 +24,7 @@ from emogen_core.rendering.worn import WornHead, worn_rig
 from .errors import ConflictError, InvalidError, UnavailableError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
     from emogen_core.face.identity import Identity
     from emogen_core.face.rig import Rig
@@ -214,18 +215,15 @@ class Wardrobe:
                 return
 
 
-class _turn:  # noqa: N801 - used as a statement
-    """A lock that is waited for so long and no longer."""
-
-    def __init__(self, lock: threading.Lock, seconds: float) -> None:
-        self._lock, self._seconds = lock, seconds
-
-    def __enter__(self) -> None:
-        if not self._lock.acquire(timeout=self._seconds):
-            raise UnavailableError("Other heads are being made. Try again in a few seconds.", AGAIN)
-
-    def __exit__(self, *_: object) -> None:
-        self._lock.release()
+@contextmanager
+def _turn(lock: threading.Lock, seconds: float) -> Iterator[None]:
+    """Hold a lock that is waited for so long and no longer."""
+    if not lock.acquire(timeout=seconds):
+        raise UnavailableError("Other heads are being made. Try again in a few seconds.", AGAIN)
+    try:
+        yield
+    finally:
+        lock.release()
 
 
 def refusal(where: str, error: EmogenError) -> InvalidError:

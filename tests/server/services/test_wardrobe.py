@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import threading
 import time
 
+import httpx2
 import numpy as np
 import pytest
 from starlette.testclient import TestClient
@@ -17,6 +19,7 @@ from emogen_core.face.space_file import load_bundled_space
 from server.app import create_app
 from server.services.errors import ConflictError, InvalidError, UnavailableError
 from server.services.house import build_house
+from server.services.simulation import Simulation
 from server.services.wardrobe import Wardrobe
 from tests.conftest import FakeDrawer, FakeTailor, small_study
 from tests.server.walker import Walker
@@ -220,3 +223,34 @@ def test_it_replays_and_the_export_says_where_the_document_is(client, house, set
     replayed = later.replay.study(study.id)
     assert (replayed.difference, replayed.generations) == (None, 2 * 7)
     later.close()
+
+
+def test_simulated_participants_come_again_while_a_head_is_made(house, tailor, monkeypatch):
+    monkeypatch.setattr("server.services.wardrobe.AGAIN", 0)
+    object.__setattr__(house.journal.wardrobe, "_patience", 0.05)
+    tailor.gate.clear()
+    study = house.studies.create(study_of(document(), "male"))
+    token = house.tokens.create("test", ["simulate"])
+    threading.Timer(0.4, tailor.gate.set).start()
+
+    async def run():
+        transport = httpx2.ASGITransport(create_app(house))
+        async with httpx2.AsyncClient(base_url="http://testserver", transport=transport) as client:
+            return await Simulation(client, study.links[0], token, 1, house.journal.rig).run(2)
+
+    report = asyncio.run(run())
+    assert len(report.trials) == 4
+    assert house.replay.study(study.id).difference is None
+
+
+def test_renewal_after_an_update_of_the_look_fits_nothing(client, house, settings, rig):
+    study = house.studies.create(study_of(document()))
+    before = Walker(client, study.links[0]).start()["trial"]["faces"][0]["portrait"]
+    drawer, tailor = FakeDrawer(rig), FakeTailor(rig)
+    drawer.key = lambda *face: house.portraits.key(*face)[::-1]
+    after = build_house(settings, rig, drawer, tailor)
+    assert tailor.fitted == []
+    key = before.removeprefix("/portraits/").removesuffix(".png")[::-1]
+    assert after.portraits.request(key).result(5)
+    assert tailor.fitted == [("Somebody", True)]
+    after.close()
