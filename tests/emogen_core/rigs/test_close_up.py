@@ -30,7 +30,9 @@ def test_genes_are_set_after_the_emotion():
     genes = genome(rig, ["mouthSmile=0.25", "jawOpen=0.5"], "happy")
     assert genes[rig.gene_names.index("mouthSmile")] == 0.25
     assert genes[rig.gene_names.index("jawOpen")] == 0.5
-    assert genes[rig.gene_names.index("cheekRaise")] == dict(zip(happy.genes, happy.strengths, strict=True))["cheekRaise"]
+    assert (
+        genes[rig.gene_names.index("cheekRaise")] == dict(zip(happy.genes, happy.strengths, strict=True))["cheekRaise"]
+    )
     assert (genes > 0).sum() == len(happy.genes) + 1
 
 
