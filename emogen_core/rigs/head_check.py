@@ -51,6 +51,7 @@ class _Worn:
     eye_centre: NDArray[np.float64]
 
     def faces(self, weights: list[dict[str, float]]) -> Mesh:
+        """Return the (B, N, 3) faces of some genes' weights, combinational correctives on."""
         genes = np.zeros((len(weights), len(self.rig.genes)))
         for row, values in zip(genes, weights, strict=True):
             row[self.rig.gene_indices(tuple(values))] = list(values.values())
