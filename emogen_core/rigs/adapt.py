@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 # Differences below this, millimetres, are not worth storing.
 _SEEN = 0.02
-_ROUNDS = 4
+_ROUNDS = 10
 
 
 @dataclass(frozen=True, eq=False)

@@ -47,17 +47,7 @@ class BaseMesh:
 
 def load_base_mesh(source: Source) -> BaseMesh:
     """Parse ``base.obj`` and the mirror table."""
-    rows: dict[str, list[list[str]]] = {"v": [], "vt": []}
-    faces: dict[str, list[list[list[int]]]] = {}
-    group = ""
-    for line in source.read("mpfb2/3dobjs/base.obj").decode().splitlines():
-        key, *fields = line.split() or [""]
-        if key in rows:
-            rows[key].append(fields)
-        elif key == "g":
-            group = fields[0]
-        elif key == "f":
-            faces.setdefault(group, []).append([[int(i) - 1 for i in f.split("/")] for f in fields])
+    rows, faces = _parsed(source.read("mpfb2/3dobjs/base.obj").decode())
     quads = {name: np.array(listed, np.intp) for name, listed in faces.items() if not name.startswith("joint")}
     return BaseMesh(
         vertices=np.array(rows["v"], np.float64),
@@ -83,6 +73,22 @@ def components(faces: NDArray[np.intp], count: int) -> NDArray[np.intp]:
     a, b = faces.ravel(), np.roll(faces, -1, 1).ravel()
     graph = coo_array((np.ones(len(a)), (a, b)), shape=(count, count))
     return np.asarray(connected_components(graph, directed=False)[1], np.intp)[faces[:, 0]]
+
+
+def _parsed(text: str) -> tuple[dict[str, list[list[str]]], dict[str, list[list[list[int]]]]]:
+    """Return the rows of positions and texture coordinates, and for every group its faces as vertex/texture pairs."""
+    rows: dict[str, list[list[str]]] = {"v": [], "vt": []}
+    faces: dict[str, list[list[list[int]]]] = {}
+    group = ""
+    for line in text.splitlines():
+        key, *fields = line.split() or [""]
+        if key in rows:
+            rows[key].append(fields)
+        elif key == "g":
+            group = fields[0]
+        elif key == "f":
+            faces.setdefault(group, []).append([[int(i) - 1 for i in f.split("/")] for f in fields])
+    return rows, faces
 
 
 def _mirror(source: Source, count: int) -> NDArray[np.intp]:

@@ -8,10 +8,15 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from emogen_core.correctives.collision import has_regions
 from emogen_core.errors import InvalidInputError, expected
+from emogen_core.face.space import topology_hash
+from emogen_core.face.space_file import load_bundled_space
 from emogen_core.rigs.collision_check import check_collisions
 from emogen_core.rigs.combination_check import combination_report
+from emogen_core.rigs.head_check import check_head
 from emogen_core.rigs.random_faces import active_genes
 
 if TYPE_CHECKING:
@@ -54,7 +59,15 @@ class Bar:
         return {"at most": value, "at least": -value, "is": float(value != self.limit)}[self.rule]
 
 
-MEASURES: dict[str, Measure] = {"collisions": check_collisions, "combinations": combination_report}
+def _check_head(rig: Rig, head: str, _faces: int, _seed: int) -> dict[str, Any]:
+    return check_head(rig, head, load_bundled_space().low.astype(np.float64))
+
+
+MEASURES: dict[str, Measure] = {
+    "collisions": check_collisions,
+    "combinations": combination_report,
+    "head": _check_head,
+}
 BARS = (
     Bar("share over 0.5 mm afterwards", ("collisions", "over_half_mm_after"), "at most", 0.01),
     Bar("milliseconds a face, mean", ("collisions", "milliseconds", "processor", "mean"), "at most", 3.0),
@@ -63,6 +76,11 @@ BARS = (
     Bar("neutral collides", ("collisions", "neutral_collides"), "is", False),
     Bar("flipped triangles fell by", ("combinations", "flips_fell"), "at least", 0.25),
     Bar("overstretched triangles fell by", ("combinations", "stretched_fell"), "at least", 0.2),
+    Bar("faces with fewer flips, for one with more", ("combinations", "better_for_one_worse"), "at least", 10),
+    Bar("mm2 of the eyeball seen at full blink", ("head", "visible_at_blink_mm2"), "at most", 0.0),
+    Bar("mm2 of it seen at full blink with another gene", ("head", "visible_worst_mm2"), "at most", 0.5),
+    Bar("mm2 of teeth seen at rest", ("head", "teeth_mm2"), "at most", 0.1),
+    Bar("mm of the neutral's collision", ("head", "collision_mm"), "at most", 0.1),
 )
 
 
@@ -138,9 +156,15 @@ def verdicts(reports: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
 
 
 def head_report(rig: Rig, head: str, sample: Sample) -> dict[str, Any]:
-    """Return what each of `MEASURES` says of one head; without ``collisions`` where a rig has no such correctives."""
-    fitting = {name: measure for name, measure in MEASURES.items() if name != "collisions" or has_regions(rig)}
+    """Return what each of `MEASURES` that fits a rig says of one of its heads."""
+    unfit = {"collisions": not has_regions(rig), "head": not _of_the_space(rig)}
+    fitting = {name: measure for name, measure in MEASURES.items() if not unfit.get(name)}
     return {name: measure(rig, head, sample.faces, sample.seed) for name, measure in fitting.items()}
+
+
+def _of_the_space(rig: Rig) -> bool:
+    """Return whether a rig has the mesh, and so the lids and lips, that `check_head` knows."""
+    return topology_hash(rig.triangles, rig.mirror, rig.parts) == load_bundled_space().topology
 
 
 def _each(rig: Rig, heads: list[str], sample: Sample, workers: int) -> Iterator[tuple[str, dict[str, Any]]]:

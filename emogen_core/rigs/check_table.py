@@ -12,12 +12,19 @@ _HEADER = (
     "mm after: mean, median, p90, p99, max", "over 0.5 mm before / after, %", "ms: mean / p99", "wall ms", "neutral mm",
 )  # fmt: skip
 
+_HEAD_HEADER = (
+    "identity", "mm2 of eyeball at full blink: alone / worst with a gene", "mm through half-shut lids",
+    "iris under lids: upper / lower", "brow mm", "teeth mm2", "lip gap mm", "corners mm",
+)  # fmt: skip
+
 
 def check_text(report: dict[str, Any]) -> str:
     """Return the report of `check_rig` for reading."""
     told = ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in report["counts"].items())
     head = f"{report['name']}: {told}.\n{report['faces']} random faces a head, seed {report['seed']}."
-    return "\n\n".join([head, *filter(None, [_collisions(report), _combinations(report), _bars(report)])])
+    return "\n\n".join(
+        [head, *filter(None, [_collisions(report), _combinations(report), _heads(report), _bars(report)])]
+    )
 
 
 def _collisions(report: dict[str, Any]) -> str:
@@ -48,6 +55,18 @@ def _combinations(report: dict[str, Any]) -> str:
 def _combination_row(identity: str, found: dict[str, Any]) -> tuple[str, ...]:
     means = (f"{found['without'][k]:.2f} -> {found['with'][k]:.2f}" for k in ("flips", "folds", "stretched"))
     return f"`{identity}`", *means, f"{found['faces_better']} / {found['faces_worse']}"
+
+
+def _heads(report: dict[str, Any]) -> str:
+    rows = [_head_row(name, r["head"]) for name, r in report["identities"].items() if "head" in r]
+    return table(_HEAD_HEADER, rows) if rows else ""
+
+
+def _head_row(identity: str, found: dict[str, Any]) -> tuple[str, ...]:
+    blink = f"{found['visible_at_blink_mm2']:.2f} / {found['visible_worst_mm2']:.2f}"
+    covers = f"{found['upper_lid_cover']:.2f} / {found['lower_lid_cover']:.2f}"
+    lips = (f"{found['teeth_mm2']:.2f}", f"{found['lip_gap_mm']:.2f}", f"{found['corner_height_mm']:.1f}")
+    return f"`{identity}`", blink, f"{found['poke_mm']:.2f}", covers, f"{found['brow_height_mm']:.1f}", *lips
 
 
 def _bars(report: dict[str, Any]) -> str:

@@ -28,7 +28,7 @@ def close_up(
     Args:
         identity: who; the rig's first by default.
         genes: each ``name=value``, value in [0, 1].
-        emotion: an emotion set of the rig whose genes are at 1 before ``genes`` are set.
+        emotion: an emotion set of the rig, at full strength before ``genes`` are set.
         size: width and height, pixels.
         backend: which renderer draws.
 
@@ -48,12 +48,8 @@ def close_up(
 
 
 def genome(rig: Rig, genes: Sequence[str], emotion: str = "") -> NDArray[np.float64]:
-    """Return the (G,) genome of an emotion set at 1, changed by ``name=value`` words. Raises as `close_up`."""
-    values = np.zeros(len(rig.genes))
-    if emotion:
-        if emotion not in rig.emotion_sets:
-            raise InvalidInputError(f"emotion: {expected(f'one of {tuple(rig.emotion_sets)}', emotion)}")
-        values[rig.gene_indices(rig.emotion_sets[emotion].genes)] = 1
+    """Return the (G,) genome of an emotion set, changed by ``name=value`` words. Raises as `close_up`."""
+    values = rig.emotion_genes(emotion) if emotion else np.zeros(len(rig.genes))
     for word in genes:
         name, _, value = word.partition("=")
         try:

@@ -36,7 +36,7 @@ def combination_report(rig: Rig, identity: str, faces: int, seed: int) -> dict[s
     Returns:
         JSON-ready: mean ``flips``, ``folds``, ``stretched`` triangles and ``piercing`` edges a face ``without`` and
         ``with`` the correctives; ``..._fell``: by which share each did; how many faces have fewer flips
-        (``faces_better``) or more (``faces_worse``).
+        (``faces_better``) or more (``faces_worse``), and the first for each of the second (or for one, if none).
 
     Raises:
         InvalidInputError: an unknown identity.
@@ -45,11 +45,14 @@ def combination_report(rig: Rig, identity: str, faces: int, seed: int) -> dict[s
     gauge = Gauge(rig.neutral(identity).astype(np.float64), flesh(rig))
     without, corrected = (_damages(rig, identity, gauge, genes, on) for on in (False, True))
     means = {"without": _means(without), "with": _means(corrected)}
+    better = sum(b.flips < a.flips for a, b in zip(without, corrected, strict=True))
+    worse = sum(b.flips > a.flips for a, b in zip(without, corrected, strict=True))
     return {
         **means,
         **{f"{field}_fell": _fall(means["without"][field], means["with"][field]) for field in _FIELDS},
-        "faces_better": sum(b.flips < a.flips for a, b in zip(without, corrected, strict=True)),
-        "faces_worse": sum(b.flips > a.flips for a, b in zip(without, corrected, strict=True)),
+        "faces_better": better,
+        "faces_worse": worse,
+        "better_for_one_worse": round(better / max(worse, 1), 2),
     }
 
 

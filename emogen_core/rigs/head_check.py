@@ -51,6 +51,7 @@ class _Worn:
     eye_centre: NDArray[np.float64]
 
     def faces(self, weights: list[dict[str, float]]) -> Mesh:
+        """Return the (B, N, 3) faces of some genes' weights, combinational correctives on."""
         genes = np.zeros((len(weights), len(self.rig.genes)))
         for row, values in zip(genes, weights, strict=True):
             row[self.rig.gene_indices(tuple(values))] = list(values.values())
@@ -68,10 +69,10 @@ def check_head(rig: Rig, identity: str, low: NDArray[np.float64]) -> dict[str, A
 
     Returns:
         JSON-ready: ``visible_mm2``, what shows of the left eyeball at full blink alone and with other genes (the larger
-        of the views from the front and from 15 degrees below); ``poke_mm``, how far the eyeball comes through the lids
-        on the way; the shares of the iris that the lids cover at rest; brows over the eyes and corners over the middle
-        of the mouth, millimetres; ``teeth_mm2`` that show and the widest ``lip_gap_mm`` at rest, both where lips
-        lie above each other; and how deep the neutral collides.
+        of the views from the front and from 15 degrees below), the first and the largest of these; ``poke_mm``, how far
+        the eyeball comes through the lids on the way; the shares of the iris that the lids cover at rest; brows over
+        the eyes and corners over the middle of the mouth, millimetres; ``teeth_mm2`` that show and the widest
+        ``lip_gap_mm`` at rest, both where lips lie above each other; and how deep the neutral collides.
 
     Raises:
         InvalidInputError: an unknown identity, or a rig without the genes that are looked at.
@@ -81,10 +82,13 @@ def check_head(rig: Rig, identity: str, low: NDArray[np.float64]) -> dict[str, A
     worn = _Worn(rig, identity, topology, eye_centre(topology, neutral))
     upper, lower = lid_covers(topology, neutral, worn.eye_centre)
     gap = lip_gaps(topology, low, neutral)[0]
+    visible = _visible(worn)
     nothing = np.zeros((1, len(rig.shape_names)), np.float32)
     return {
         "identity": identity,
-        "visible_mm2": _visible(worn),
+        "visible_mm2": visible,
+        "visible_at_blink_mm2": visible[_CLOSING],
+        "visible_worst_mm2": max(visible.values()),
         "poke_mm": _poke(worn),
         "upper_lid_cover": round(upper, 3),
         "lower_lid_cover": round(lower, 3),

@@ -81,6 +81,7 @@ class _Baker:
         return np.concatenate([render[self.half], even[self._guides]]).astype(np.float32)
 
     def macros(self) -> dict[str, Target]:
+        """Return the corner heads, and what weight and muscle change on each."""
         found = {}
         for sex in SEXES:
             for age in AGES:
@@ -95,6 +96,7 @@ class _Baker:
         return found
 
     def details(self) -> dict[str, Target]:
+        """Return every detail's two ends."""
         found = {}
         for detail in DETAILS:
             for sign, names in (("+", detail.plus), ("-", detail.minus)):

@@ -33,7 +33,7 @@ VIEWS = (0.0, 15.0)
 # Rings of a lid, counted from the lining: its edge, and the first that is all outside.
 EDGE, OUTER = 3, 4
 
-_PITCH = 0.3
+_PITCH = 0.25
 _COLUMN = 0.5
 _FINE = 0.1
 _WEIGHTS = np.array([0.0, 0.25, 0.45, 0.6, 0.75, 0.9])

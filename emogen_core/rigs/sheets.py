@@ -13,6 +13,7 @@ from emogen_core.rigs.combination_sheet import combination_sheet
 from emogen_core.rigs.contact import FACE, PORTRAIT, QUALITY, Frame, Tile, contact_sheet
 from emogen_core.rigs.look.sheet import appearance_sheet
 from emogen_core.rigs.random_faces import active_genes
+from emogen_core.rigs.wrinkle_sheet import wrinkle_sheet
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -95,6 +96,7 @@ SHEETS: dict[str, Sheet] = {
     "appearance": appearance_sheet,
     "emotions": emotions_sheet,
     "emotions-all": all_emotions_sheet,
+    "wrinkles": wrinkle_sheet,
     "random": random_sheet,
     "combinations": combination_sheet,
     "collisions": collision_sheet,

@@ -1,20 +1,24 @@
 """The tables of the documents, made from the rig: what a page says of genes and emotion sets is what the file holds.
 
-A page marks the place of a table with ``<!-- name -->`` and ``<!-- end -->``; `filled` puts the tables there.
+A page marks the place of a table with ``<!-- name -->`` and ``<!-- end -->``; `filled` puts the tables there:
+``python -m emogen_core.rigs.tables docs/rig.md docs/emotions.md``.
 """
 
 from __future__ import annotations
 
 import re
+import sys
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from emogen_core.errors import InvalidInputError, expected
+from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.rigs.gene_table import RECIPES
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from emogen_core.face.rig import Rig
 
@@ -37,6 +41,13 @@ def filled(page: str, rig: Rig) -> str:
         return f"<!-- {name} -->\n{TABLES[name](rig)}\n<!-- end -->"
 
     return _PLACE.sub(table, page)
+
+
+def main(pages: Sequence[str]) -> None:
+    """Make the tables of some pages anew from the bundled rig."""
+    rig = load_bundled_rig()
+    for page in map(Path, pages):
+        page.write_text(filled(page.read_text("utf-8"), rig), "utf-8")
 
 
 def part_table(rig: Rig) -> str:
@@ -108,3 +119,7 @@ def _reach(rig: Rig, members: tuple[str, ...]) -> float:
     """Return how far members together move the farthest vertex at weight 1, millimetres."""
     offsets = sum(rig.offsets[rig.core_shapes.index(member)] for member in members)
     return float(np.linalg.norm(offsets, axis=1).max())
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

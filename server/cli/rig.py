@@ -30,7 +30,7 @@ Workers = Annotated[int, typer.Option(min=1, help="Processes that work on the he
 Seed = Annotated[int, typer.Option(help="The same seed gives the same faces.")]
 Head = Annotated[str, typer.Option("--identity", help="Who is drawn; without it the rig's first identity.")]
 Genes = Annotated[list[str] | None, typer.Option("--gene", help="A gene and its value, mouthSmile=1; may be repeated.")]
-Emotion = Annotated[str, typer.Option(help="All genes of this emotion set at 1, before --gene.")]
+Emotion = Annotated[str, typer.Option(help="This emotion set at full strength, before --gene.")]
 Size = Annotated[int, typer.Option(min=16, max=4096, help="Width and height in pixels.")]
 Png = Annotated[Path, typer.Option("--out", help="PNG file to write.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
@@ -74,6 +74,7 @@ def draw(
 ) -> None:
     """Draw one face, corrected as in a study, as large as you like."""
     with plainly():
+        check_writable(out)
         out.write_bytes(import_module("emogen_core.rigs.close_up").close_up(identity, gene or (), emotion, size))
     typer.echo(str(out))
 

@@ -20,10 +20,17 @@ CORNER = (208 / 1024, 544 / 1024)
 _BAG, _TONGUE, _SOCKET = (np.array(c, np.float32) / 255 for c in ((150, 64, 60), (186, 106, 102), (196, 128, 118)))
 _GUM = np.array([0.72, 0.42, 0.40], np.float32)
 # Teeth from the front outward: central, lateral, canine, premolars, molar; canines are the yellowest.
-_ENAMEL = np.array([
-    (0.905, 0.865, 0.775), (0.895, 0.852, 0.755), (0.875, 0.822, 0.705), (0.875, 0.826, 0.715), (0.865, 0.815, 0.705),
-    (0.855, 0.805, 0.700),
-], np.float32)  # fmt: skip
+_ENAMEL = np.array(
+    [
+        (0.905, 0.880, 0.820),
+        (0.897, 0.870, 0.805),
+        (0.885, 0.848, 0.770),
+        (0.882, 0.850, 0.778),
+        (0.874, 0.840, 0.768),
+        (0.865, 0.830, 0.760),
+    ],
+    np.float32,
+)
 
 
 def paint_inside(canvas: Canvas) -> NDArray[np.float32]:
@@ -70,7 +77,7 @@ def _relief(
 ) -> NDArray[np.float32]:
     """Return (n, 3) factors: every tooth a little other, warm roots, clear edges, dark and warm gaps."""
     factor = np.ones((len(down), 3)) * (1 + 0.02 * np.sin(tooth * 7.3 + 2))[:, None]
-    factor *= 1 - step(down, 0.86, 0.50)[:, None] * (0.03, 0.09, 0.19)
+    factor *= 1 - step(down, 0.86, 0.50)[:, None] * (0.02, 0.055, 0.12)
     # The cutting edge lets light through: a little darker and greyer, never blue.
     factor *= 1 - (step(down, 0.88, 0.99) * step(down, 1.4, 1.1))[:, None] * (0.09, 0.075, 0.05)
     factor *= 1 + 0.03 * (np.exp(-(((np.abs(across) - 0.42) / 0.16) ** 2)) * step(down, 1.1, 0.7))[:, None]
