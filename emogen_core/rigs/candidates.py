@@ -54,6 +54,7 @@ RULES: Mapping[tuple[str, ...], Method] = {
     ("lidsClose", "lidUpperRaise"): "cancel",
     ("lidsClose", "lidsSlit", "gazeDown"): "undo",
     ("lidsClose", "gazeDown", "lidsTight"): "undo",
+    ("lidsClose", "lidsTight", "lidsSlit"): "undo",
     ("browInnerUp", "browOblique"): "max",
     ("browInnerUp", "browRaise"): "max",
     ("browOuterUp", "browArch"): "max",
