@@ -16,8 +16,9 @@ import numpy as np
 from scipy.sparse import coo_array, csr_array, diags_array
 
 from emogen_core.rigs.canvas import smoothstep
-from emogen_core.rigs.fitting import LID_GENES, cleared, gene_offsets
+from emogen_core.rigs.fitting import CLOSING, LID_GENES, cleared, gene_offsets
 from emogen_core.rigs.gene_table import RECIPES
+from emogen_core.rigs.lids import opening_ends
 from emogen_core.rigs.lips import lip_gaps, near_line
 from emogen_core.rigs.quality import Gauge
 
@@ -45,8 +46,9 @@ PATIENCE = 6
 _STILL = 0.01
 # Vertices so near to x = 0, millimetres, are in the middle.
 _MIDDLE = 1e-6
-# Closing lids must meet: what relaxes their skin lifts it off the eye (`lids.py` fits this gene).
-NOT_MENDED = "lidsClose"
+# Closing lids must meet: what relaxes their skin lifts it off the eye (`lids.py` fits them). So they are mended only
+# from so far outside the ends of the opening, millimetres.
+_BEYOND_OPENING = 0.5
 # Less damage than this is not worth another shape.
 WORTH = 4
 
@@ -121,21 +123,32 @@ class Mender:
 
 
 def mended_shapes(mender: Mender, head: Head, core: Meshes) -> Meshes:
-    """Return the core shapes with every gene but `NOT_MENDED` mended at weight 1 on a head, lids outside its eyeballs.
+    """Return the core shapes with every gene mended at weight 1 on a head, lids outside its eyeballs.
 
-    A change goes to the member of its side, in the middle to both alike.
+    Closing lids are mended about the corners of the eyes alone. A change goes to the member of its side, in the middle
+    to both alike.
     """
     shapes, genes = dict(core), gene_offsets(core)
     left = np.where(np.abs(head.neutral[:, :1]) < _MIDDLE, 0.5, head.neutral[:, :1] > 0)
-    for recipe in (recipe for recipe in RECIPES if recipe.name != NOT_MENDED):
+    for recipe in RECIPES:
         offsets = genes[recipe.name]
-        change = mender.mended(head.neutral, offsets) - offsets
+        reach = _eye_corners(mender.geometry, head, offsets) if recipe.name == CLOSING else None
+        change = mender.mended(head.neutral, offsets, reach) - offsets
         if recipe.name in LID_GENES:
             change = cleared(mender.geometry, head, offsets + change) - offsets
         shares = [left, 1 - left] if len(recipe.members) == 2 else [np.ones_like(left)]
         for member, share in zip(recipe.members, shares, strict=True):
             shapes[member] = core[member] + share * change
     return shapes
+
+
+def _eye_corners(geometry: Topology, head: Head, offsets: Mesh) -> NDArray[np.bool_]:
+    """Return (N,) which vertices offsets move beside the openings of the eyes."""
+    first, last = opening_ends(geometry, head.neutral, head.eye_centre)
+    across = np.abs(head.neutral[:, 0])
+    beside = (across < first - _BEYOND_OPENING) | (across > last + _BEYOND_OPENING)
+    moved: NDArray[np.bool_] = beside & (np.abs(offsets).max(1) > _STILL)
+    return moved
 
 
 def eased_lips(mender: Mender, low: NDArray[np.float64], reference: Mesh, mesh: Mesh) -> Mesh:
