@@ -52,6 +52,8 @@ RULES: Mapping[tuple[str, ...], Method] = {
     ("lidsSlit", "gazeDown"): "max",
     ("lidsTight", "lidsSlit"): "max",
     ("lidsClose", "lidUpperRaise"): "cancel",
+    ("lidsClose", "gazeLeft"): "cancel",
+    ("lidsClose", "gazeRight"): "cancel",
     ("lidsClose", "lidsSlit", "gazeDown"): "undo",
     ("lidsClose", "gazeDown", "lidsTight"): "undo",
     ("lidsClose", "lidsTight", "lidsSlit"): "undo",

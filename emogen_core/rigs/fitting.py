@@ -38,8 +38,6 @@ SHUT_GENES = (
 # Genes that move lids over the eyeball.
 LID_GENES = ("lidsClose", "lidsTight", "lidsSlit", "lidUpperRaise", "gazeUp", "gazeDown", "cheekRaise", "browDown")
 CLOSING = "lidsClose"
-# Genes that draw the lids a little sideways, and must not open them.
-ASIDE = ("gazeLeft", "gazeRight")
 # Skin stays this share of the radius outside the eyeball, so that flat triangles clear it too.
 EYEBALL_MARGIN = 0.022
 # The very edge of a lid touches it.
@@ -100,9 +98,8 @@ def closed_lids(geometry: Topology, head: Head, core: Meshes) -> Meshes:
     other = np.interp(-head.neutral[:, 0], head.neutral[order, 0], own[order])
     scaled = {_CLOSURE[0]: left * own[:, None], _CLOSURE[1]: right * other[:, None]}
     both = sum(scaled.values(), np.zeros_like(left))
-    looks = [np.zeros_like(both), *gene_offsets(core, ASIDE).values()]
     factor = closing_factor(
-        geometry, head.eye_centre, head.neutral, lambda weight: cleared(geometry, head, weight * both), looks
+        geometry, head.eye_centre, head.neutral, lambda weight: cleared(geometry, head, weight * both)
     )
     return {name: factor * offsets for name, offsets in scaled.items()}
 

@@ -17,7 +17,7 @@ from emogen_core.rigs.features import eye_triangles
 from emogen_core.rigs.heights import highest
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable
 
     from numpy.typing import NDArray
 
@@ -114,21 +114,14 @@ def _opening(topology: Topology, mesh: Mesh, columns: NDArray[np.float64], heigh
 
 
 def closing_factor(
-    topology: Topology,
-    eye_centre: NDArray[np.float64],
-    neutral: Mesh,
-    closing: Callable[[float], Mesh],
-    looks: Sequence[Mesh],
+    topology: Topology, eye_centre: NDArray[np.float64], neutral: Mesh, closing: Callable[[float], Mesh]
 ) -> float:
-    """Return the least factor at which nothing of the left eye shows.
-
-    The (N, 3) mesh is ``neutral + closing(factor) + look`` with any of ``looks``, where eyes may look meanwhile.
-    """
+    """Return the least factor at which a (N, 3) mesh ``neutral + closing(factor)`` shows nothing of the left eye."""
     low, high = _FACTORS
     for _ in range(_BISECTIONS):
         middle = (low + high) / 2
         mesh = neutral + closing(middle)
-        shut = not any(visible_area(topology, mesh + look, eye_centre, view) for look in looks for view in VIEWS)
+        shut = not any(visible_area(topology, mesh, eye_centre, view) for view in VIEWS)
         low, high = (low, middle) if shut else (middle, high)
     return high + _SPARE
 
