@@ -18,8 +18,8 @@ from emogen_core.rigs.candidates import Deriver, Pair
 from emogen_core.rigs.collision_bake import settled
 from emogen_core.rigs.fitting import Head, cleared_neutral, fitted_lids, gene_offsets, kept_shut
 from emogen_core.rigs.lips import close_slits, seal_lips, visible_teeth
-from emogen_core.rigs.mending import mended_shapes
-from emogen_core.rigs.rest import BROWS, rest_pose
+from emogen_core.rigs.mending import eased_lips, mended_shapes
+from emogen_core.rigs.rest import BROWS, corners_lifted, rest_pose
 from emogen_core.rigs.topology import RigTopology
 
 if TYPE_CHECKING:
@@ -63,7 +63,9 @@ class Fitter:
         neutral, eye_centre = self.space.head(point)
         low, brows = self.space.low.astype(np.float64), self.rig.regions[BROWS]
         head = rested(self._topology, low, brows, Head(neutral, eye_centre), self._genes)
-        return replace(head, neutral=self.freed(head.neutral))
+        eased = eased_lips(self._deriver.mender, low, self._reference, head.neutral)
+        level = corners_lifted(self._topology, low, eased)
+        return replace(head, neutral=self.freed(seal_lips(self._topology, low, level)))
 
     def freed(self, mesh: Mesh) -> Mesh:
         """Return a rested neutral (N, 3) in which lips and teeth neither collide nor let a tooth be seen."""
@@ -89,6 +91,10 @@ class Fitter:
     @cached_property
     def _topology(self) -> RigTopology:
         return RigTopology(self.rig)
+
+    @cached_property
+    def _reference(self) -> Mesh:
+        return self.rig.neutral(self.rig.identities[0]).astype(np.float64)
 
     @cached_property
     def _deriver(self) -> Deriver:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.sparse import coo_array, csr_array, diags_array
 from scipy.spatial import cKDTree
 
 from emogen_core.rigs.canvas import smoothstep
@@ -44,6 +45,8 @@ EDGE_MARGIN = 0.002
 
 _NEAR = 2.2
 _CHORD_ROUNDS = 6
+# What lies so near to a vertex that is pushed out is carried along, millimetres.
+_CARRIED = 4.0
 # Up to here from the rims of the lids, and from here on no more, millimetres, closed lids hold still.
 _RIM_FADE = (3.0, 9.0)
 
@@ -105,18 +108,22 @@ def cleared(geometry: Topology, head: Head, offsets: Mesh) -> Mesh:
     """Return (N, 3) offsets whose straight path keeps skin and lashes as far out of the eyeballs as they are at rest.
 
     A straight path cuts the corner of a round one: where its nearest point is too deep, its end is moved out until it
-    is not.
+    is not. What lies about it, the lid's other side and its lining too, is carried along: a lid of which one side
+    alone moves turns over.
     """
     result = offsets.copy()
     for side in (1, -1):
         centre = head.eye_centre * (side, 1, 1)
         covers, margin = _covers(geometry, head.neutral, centre)
+        around = _around(geometry, head.neutral, centre)
+        carried = _carried(head.neutral[around], head.neutral[covers])
         rest = head.neutral[covers] - centre
         at_rest = np.linalg.norm(rest, axis=1)
         for _ in range(_CHORD_ROUNDS):
             end = rest + result[covers]
             nearest = _nearest_on_path(rest, end)
-            result[covers] += _pushed_out(nearest, end, np.minimum(clear_radius(nearest, margin), at_rest))
+            missing = _missing(nearest, end, np.minimum(clear_radius(nearest, margin), at_rest))
+            result[around] += _outwards(head.neutral[around] + result[around] - centre, _largest(carried, missing))
     return result
 
 
@@ -127,15 +134,40 @@ def cleared_neutral(geometry: Topology, head: Head) -> Mesh:
         centre = head.eye_centre * (side, 1, 1)
         covers, margin = _covers(geometry, mesh, centre)
         place = mesh[covers] - centre
-        mesh[covers] += _pushed_out(place, place, clear_radius(place, margin))
+        mesh[covers] += _outwards(place, _missing(place, place, clear_radius(place, margin)))
     return mesh
 
 
-def _pushed_out(points: Mesh, ends: Mesh, limit: NDArray[np.float64]) -> Mesh:
-    """Return (n, 3) how ``ends`` move away from the centre for what (n, 3) ``points`` lack to (n,) ``limit``."""
-    missing = np.maximum(limit - np.linalg.norm(points, axis=1), 0) * smoothstep(ends[:, 2], 0, 3)
-    away: Mesh = (missing / np.maximum(np.linalg.norm(ends, axis=1), 1e-9))[:, None] * ends
+def _missing(points: Mesh, ends: Mesh, limit: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return (n,) what (n, 3) points lack to the distance (n,) ``limit``, where their ends are in front."""
+    lacking: NDArray[np.float64] = np.maximum(limit - np.linalg.norm(points, axis=1), 0) * smoothstep(ends[:, 2], 0, 3)
+    return lacking
+
+
+def _outwards(points: Mesh, amount: NDArray[np.float64]) -> Mesh:
+    """Return (n, 3) steps of (n,) lengths that lead (n, 3) points away from the centre."""
+    away: Mesh = (amount / np.maximum(np.linalg.norm(points, axis=1), 1e-9))[:, None] * points
     return away
+
+
+def _around(geometry: Topology, neutral: Mesh, centre: NDArray[np.float64]) -> NDArray[np.intp]:
+    """Return all soft vertices near an eyeball."""
+    soft = geometry.part_vertices("skin", "sockets", "lashes")
+    near: NDArray[np.intp] = soft[np.linalg.norm(neutral[soft] - centre, axis=1) < _NEAR * RADIUS]
+    return near
+
+
+def _carried(points: Mesh, pushed: Mesh) -> csr_array:
+    """Return (n, m) by which share each of (n, 3) points is carried along with each of (m, 3) pushed ones."""
+    pairs = cKDTree(points).sparse_distance_matrix(cKDTree(pushed), _CARRIED, output_type="coo_matrix")
+    share = 1 - smoothstep(pairs.data, 0, _CARRIED)
+    return csr_array(coo_array((share, (pairs.row, pairs.col)), shape=pairs.shape))
+
+
+def _largest(share: csr_array, amount: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return (n,) the largest of what (m,) amounts bring each row of (n, m) shares."""
+    brought: NDArray[np.float64] = (share @ diags_array(amount)).max(axis=1).toarray().ravel()
+    return brought
 
 
 def clear_radius(points: Mesh, margin: NDArray[np.float64] | float) -> NDArray[np.float64]:

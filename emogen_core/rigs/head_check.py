@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 # What may happen while eyes are shut.
 WITH_BLINK = (
     "", "gazeDown", "gazeUp", "lidsTight", "lidsSlit", "browDown", "cheekRaise", "lidUpperRaise", "lidsTight+lidsSlit",
-    "gazeDown+lidsSlit", "cheekRaise+lidsTight",
+    "gazeDown+lidsSlit", "cheekRaise+lidsTight", "gazeLeft", "gazeRight",
 )  # fmt: skip
 ON_THE_WAY = ("", "gazeDown", "gazeUp", "lidsTight", "lidsSlit")
 HALF_SHUT = (0.25, 0.5, 0.75)

@@ -56,6 +56,14 @@ def visible_area(
     return float((np.isfinite(ball) & (skin < ball)).sum() * pitch**2)
 
 
+def opening_ends(topology: Topology, mesh: Mesh, eye_centre: NDArray[np.float64]) -> tuple[float, float]:
+    """Return from which x to which the left eyeball shows from the front; the eye's centre twice if it does not."""
+    ball, skin = eye_depths(topology, mesh, eye_centre, 0.0, _PITCH)
+    shown = np.flatnonzero((np.isfinite(ball) & (skin < ball)).any(1))
+    across = eye_centre[0] + _PITCH * shown - RADIUS if len(shown) else eye_centre[:1]
+    return float(across[0]), float(across[-1])
+
+
 def eye_depths(
     topology: Topology, mesh: Mesh, eye_centre: NDArray[np.float64], below: float, pitch: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -15,8 +15,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.sparse import coo_array, csr_array, diags_array
 
-from emogen_core.rigs.fitting import LID_GENES, cleared, gene_offsets
+from emogen_core.rigs.canvas import smoothstep
+from emogen_core.rigs.fitting import CLOSING, LID_GENES, cleared, gene_offsets
 from emogen_core.rigs.gene_table import RECIPES
+from emogen_core.rigs.lids import opening_ends
+from emogen_core.rigs.lips import lip_gaps, near_line
 from emogen_core.rigs.quality import Gauge
 
 if TYPE_CHECKING:
@@ -32,14 +35,20 @@ if TYPE_CHECKING:
 STRAINED_STRETCH = 2.6
 STRAINED_TURN = 0.1
 ROUNDS = 24
+# The same, by how a head differs from another, where its lips meet: what is squeezed there turns over with every gene.
+EASED = (1.6, 0.3)
+EASING_ROUNDS = 60
+# From here to there from the line where lips meet, millimetres, easing fades.
+_EASED_FADE = (4.0, 10.0)
 # Rounds without any gain after which no more is tried.
 PATIENCE = 6
 # Offsets below this, millimetres, move nothing.
 _STILL = 0.01
 # Vertices so near to x = 0, millimetres, are in the middle.
 _MIDDLE = 1e-6
-# Closing lids must meet: what relaxes their skin lifts it off the eye (`lids.py` fits this gene).
-NOT_MENDED = "lidsClose"
+# Closing lids must meet: what relaxes their skin lifts it off the eye (`lids.py` fits them). So they are mended only
+# from so far outside the ends of the opening, millimetres.
+_BEYOND_OPENING = 0.5
 # Less damage than this is not worth another shape.
 WORTH = 4
 
@@ -90,8 +99,21 @@ class Mender:
                 break
         return best
 
-    def _relaxed(self, gauge: Gauge, offsets: Mesh, free: NDArray[np.bool_]) -> Mesh:
-        strained = gauge.strained(gauge.neutral + offsets, STRAINED_STRETCH, STRAINED_TURN)
+    def eased(self, neutral: Mesh, offsets: Mesh, share: NDArray[np.float64]) -> Mesh:
+        """Return (N, 3) offsets relaxed until next to no triangle is squeezed, each vertex by its (N,) share."""
+        gauge = Gauge(neutral, self.flesh).near(share > 0)
+        for _ in range(EASING_ROUNDS):
+            offsets = self._relaxed(gauge, offsets, share, EASED)
+        return offsets
+
+    def _relaxed(
+        self,
+        gauge: Gauge,
+        offsets: Mesh,
+        free: NDArray[np.bool_] | NDArray[np.float64],
+        limits: tuple[float, float] = (STRAINED_STRETCH, STRAINED_TURN),
+    ) -> Mesh:
+        strained = gauge.strained(gauge.neutral + offsets, *limits)
         mask = np.zeros(len(offsets))
         mask[gauge.triangles[strained]] = 1
         mask = np.clip(3 * (self.mean @ (self.mean @ mask)), 0, 1) * free
@@ -101,21 +123,51 @@ class Mender:
 
 
 def mended_shapes(mender: Mender, head: Head, core: Meshes) -> Meshes:
-    """Return the core shapes with every gene but `NOT_MENDED` mended at weight 1 on a head, lids outside its eyeballs.
+    """Return the core shapes with every gene mended at weight 1 on a head, lids outside its eyeballs.
 
-    A change goes to the member of its side, in the middle to both alike.
+    Closing lids are mended about the corners of the eyes alone. A change goes to the member of its side, in the middle
+    to both alike.
     """
     shapes, genes = dict(core), gene_offsets(core)
     left = np.where(np.abs(head.neutral[:, :1]) < _MIDDLE, 0.5, head.neutral[:, :1] > 0)
-    for recipe in (recipe for recipe in RECIPES if recipe.name != NOT_MENDED):
+    for recipe in RECIPES:
         offsets = genes[recipe.name]
-        change = mender.mended(head.neutral, offsets) - offsets
+        reach = _eye_corners(mender.geometry, head, offsets) if recipe.name == CLOSING else None
+        change = mender.mended(head.neutral, offsets, reach) - offsets
         if recipe.name in LID_GENES:
             change = cleared(mender.geometry, head, offsets + change) - offsets
         shares = [left, 1 - left] if len(recipe.members) == 2 else [np.ones_like(left)]
         for member, share in zip(recipe.members, shares, strict=True):
             shapes[member] = core[member] + share * change
     return shapes
+
+
+def _eye_corners(geometry: Topology, head: Head, offsets: Mesh) -> NDArray[np.bool_]:
+    """Return (N,) which vertices offsets move beside the openings of the eyes."""
+    first, last = opening_ends(geometry, head.neutral, head.eye_centre)
+    across = np.abs(head.neutral[:, 0])
+    beside = (across < first - _BEYOND_OPENING) | (across > last + _BEYOND_OPENING)
+    moved: NDArray[np.bool_] = beside & (np.abs(offsets).max(1) > _STILL)
+    return moved
+
+
+def eased_lips(mender: Mender, low: NDArray[np.float64], reference: Mesh, mesh: Mesh) -> Mesh:
+    """Return the (N, 3) mesh of a head whose lips are squeezed less where they meet.
+
+    Thin or pushed up lips leave slivers of a tenth of a square millimetre there, which any gene turns over.
+
+    Args:
+        mender: of the mesh.
+        low: (N,) 0 on the upper, 1 on the lower lip.
+        reference: (N, 3) a head with well-shaped lips.
+        mesh: (N, 3) the head.
+    """
+    geometry = mender.geometry
+    lips = geometry.part_vertices("skin", "mouth")
+    line = lip_gaps(geometry, low, reference)[1]
+    share = np.zeros(len(mesh))
+    share[lips] = 1 - smoothstep(near_line(reference[lips], line), *_EASED_FADE)
+    return reference + mender.eased(reference, mesh - reference, share)
 
 
 def neighbour_mean(triangles: NDArray[np.int32], count: int) -> csr_array:

@@ -66,8 +66,15 @@ def rest_pose(
     for _ in range(_ROUNDS):
         mesh = _lower_lids_moved(topology, mesh, eye_centre)
         mesh = mesh + _lid_share(topology, mesh, eye_centre, genes[UPPER_LID_GENE]) * genes[UPPER_LID_GENE]
+    return corners_lifted(topology, low, mesh)
+
+
+def corners_lifted(topology: Topology, low: NDArray[np.float64], mesh: Mesh) -> Mesh:
+    """Return the (N, 3) mesh with the corners of the mouth inside their band."""
     for _ in range(_ROUNDS):
-        mesh = _corners_lifted(topology, low, mesh)
+        missing = -_outside(corner_height(topology, low, mesh), CORNER_HEIGHT)
+        lift = np.clip(missing, -_LARGEST_LIFT, _LARGEST_LIFT)
+        mesh = mesh + np.array([0, lift, 0]) * corner_bell(topology, mesh)[:, None]
     return mesh
 
 
@@ -128,12 +135,6 @@ def _lid_fade(place: Mesh, rim: float) -> NDArray[np.float64]:
     fall = np.where(from_rim > 0, _LID_REACH / 2, _LID_REACH)
     fade: NDArray[np.float64] = np.exp(-((from_rim / fall) ** 2) - (place[:, 0] / 13) ** 4)
     return fade * (place[:, 2] > 0)
-
-
-def _corners_lifted(topology: Topology, low: NDArray[np.float64], mesh: Mesh) -> Mesh:
-    missing = -_outside(corner_height(topology, low, mesh), CORNER_HEIGHT)
-    lift = np.clip(missing, -_LARGEST_LIFT, _LARGEST_LIFT)
-    return mesh + np.array([0, lift, 0]) * corner_bell(topology, mesh)[:, None]
 
 
 def _mouth_corner(topology: Topology, mesh: Mesh) -> int:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from emogen_core.rigs.mending import Mender, neighbour_mean
+from emogen_core.rigs.mending import EASED, Mender, neighbour_mean
 from emogen_core.rigs.quality import Gauge
 from tests.emogen_core.rigs.patch import SIZE, Patch, points
 
@@ -49,6 +49,16 @@ def test_mirrored_offsets_are_mended_to_mirror_images():
     mirrored = offsets[swap][:, [1, 0, 2]]
     one, two = (MENDER.mended(points(), o) for o in (offsets, mirrored))
     assert two == pytest.approx(one[swap][:, [1, 0, 2]])
+
+
+def test_what_is_squeezed_is_eased_and_no_more_than_its_share():
+    squeezed = -0.8 * points() * (np.abs(points()) < 2).all(1)[:, None]
+    assert GAUGE.strained(points() + squeezed, *EASED).any()
+    assert not GAUGE.strained(points() + MENDER.eased(points(), squeezed, np.ones(SIZE * SIZE)), *EASED).any()
+    share = (points()[:, 0] >= 0).astype(float)
+    half = MENDER.eased(points(), squeezed, share)
+    assert np.array_equal(half[share == 0], squeezed[share == 0])
+    assert not np.array_equal(half, squeezed)
 
 
 def test_a_mean_of_neighbours_keeps_constants_and_lonely_vertices():

@@ -13,8 +13,9 @@ from emogen_core.rigs.eyeballs import RADIUS
 from emogen_core.rigs.features import corner_height, lid_covers
 from emogen_core.rigs.fitting import Head, cleared, cleared_neutral, gene_offsets
 from emogen_core.rigs.head_check import eye_centre
-from emogen_core.rigs.lids import EDGE, lid_rings, turned_below, visible_area
+from emogen_core.rigs.lids import EDGE, lid_rings, opening_ends, turned_below, visible_area
 from emogen_core.rigs.lips import close_slits, teeth_area
+from emogen_core.rigs.quality import Gauge
 from emogen_core.rigs.rest import BROWS, UPPER_COVER, corner_bell, rest_pose
 from emogen_core.rigs.topology import RigTopology
 
@@ -78,6 +79,28 @@ def test_skin_is_pushed_out_of_the_eyeball_and_a_straight_path_goes_round_it():
     for share in (0.3, 0.5, 0.7, 1.0):
         place = (NEUTRAL + share * swing)[outer] - HEAD.eye_centre
         assert np.linalg.norm(place[place[:, 2] > 4], axis=1).min() >= RADIUS - 0.1
+
+
+def test_a_lid_that_is_pushed_out_is_not_turned_over():
+    """Its lining, which needs no push itself, goes along."""
+    sinking = -np.array([0, 0, 1.5]) * (np.abs(NEUTRAL[:, :1]) < 50) * (np.abs(NEUTRAL[:, 1:2]) < 16)
+    sinking[NEUTRAL[:, 2] < 0] = 0
+    pushed = np.linalg.norm(cleared(TOPOLOGY, HEAD, sinking) - sinking, axis=1)
+    left = np.linalg.norm(NEUTRAL - HEAD.eye_centre, axis=1) < 1.1 * RADIUS
+    soft = np.isin(np.arange(len(NEUTRAL)), TOPOLOGY.part_vertices("skin"))
+    front = left & soft & (NEUTRAL[:, 2] > 8)
+    assert np.median(pushed[front & (lid_rings(TOPOLOGY) == EDGE - 1)]) > 0.3
+    assert np.median(pushed[front & (lid_rings(TOPOLOGY) == EDGE)]) > 0.3
+    gauge = Gauge(NEUTRAL, RIG.triangles[: RIG.parts["sockets"][1]])
+    assert gauge.damage(NEUTRAL + GENES["gazeDown"]).flips == 0
+    assert gauge.damage(NEUTRAL + GENES["lidsClose"]).flips <= 12
+
+
+def test_the_opening_of_an_eye_ends_on_both_sides_of_its_middle_and_nowhere_if_shut():
+    middle = HEAD.eye_centre[0]
+    first, last = opening_ends(TOPOLOGY, NEUTRAL, HEAD.eye_centre)
+    assert middle - RADIUS < first < middle - 6 < middle + 6 < last < middle + RADIUS
+    assert opening_ends(TOPOLOGY, NEUTRAL + GENES["lidsClose"], HEAD.eye_centre) == (middle, middle)
 
 
 def test_a_slit_between_the_lips_is_closed():
