@@ -101,6 +101,7 @@ class Look:
             translucency, and the hair's thickness in units of `HAIR_DEPTH`.
         wrinkle_masks: (R, G) float32, where each wrinkle group shows on the skin layer.
         wrinkle_drivers: for each group, shape name -> gain.
+        wrinkle_rest: for each group, how much of `Style.lines` shows there, 0 to 1; all of it where this is empty.
         edges: ``left_upper``, ``left_lower``, ``right_upper``, ``right_lower`` (lids), ``mouth_upper``, ``mouth_lower``
             (inner edges of the lips) -> rig vertices, by x. May be empty: then eyes and mouth have no moving shadow.
         paint: layers that textures are composed from, see `emogen_core.rendering.composer`; empty where all are stored.
@@ -115,6 +116,7 @@ class Look:
     bakes: Mapping[str, NDArray[np.float32]]
     wrinkle_masks: NDArray[np.float32]
     wrinkle_drivers: tuple[Mapping[str, float], ...] = ()
+    wrinkle_rest: tuple[float, ...] = ()
     edges: Mapping[str, NDArray[np.int32]] = field(default_factory=dict)
     paint: Mapping[str, NDArray[Any]] = field(default_factory=dict)
     hash: str = ""
@@ -217,6 +219,7 @@ def save_look(path: Path, look: Look) -> str:
         "default": look.default,
         "styles": {name: _style_document(style) for name, style in look.styles.items()},
         "wrinkle_drivers": [dict(drivers) for drivers in look.wrinkle_drivers],
+        "wrinkle_rest": list(look.wrinkle_rest),
     }
     arrays: dict[str, NDArray[Any]] = {"wrinkle_masks": _bytes(look.wrinkle_masks)}
     for name, layer in look.layers.items():
@@ -249,6 +252,8 @@ def load_look(path: Path) -> Look:
             bakes={name: _floats(bake) for name, bake in _folder(arrays, "bakes").items()},
             wrinkle_masks=_floats(arrays["wrinkle_masks"]),
             wrinkle_drivers=tuple(document["wrinkle_drivers"]),
+            # Files from before this was told apart have none.
+            wrinkle_rest=tuple(document.get("wrinkle_rest", ())),
             edges=_folder(arrays, "edges"),
             paint=_folder(arrays, "paint"),
             hash=digest,

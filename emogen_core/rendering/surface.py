@@ -2,8 +2,8 @@
 
 One interleaved float32 row a render vertex, in the order that the shaders expect:
 position (3), normal (3), texture (2), light (2: sight of the key light, translucency), tint (4).
-On skin the tint is (occlusion, skin, gloss, wrinkle activation), on eyeballs (lid shadow, height and strength of the
-catchlight, way to the lower lid in radii).
+On skin the tint is (occlusion, skin, gloss, wrinkle activation), on eyeballs (lid shadow, 0, strength of the
+catchlight, way to the lower lid in radii); there the light is the way from the lamp's image, in radii.
 """
 
 from __future__ import annotations
@@ -36,9 +36,15 @@ _CLOSED_MOUTH, _OPEN_MOUTH = 0.20, 2.4
 _LIT_DEPTH, _DARK_DEPTH, _CAVITY = 14.0, 32.0, 0.80
 # How dark an eyeball is right under the upper lid, and over what part of its radius the shadow runs out.
 _LID_SHADOW, _LID_REACH = 0.34, 0.34
-# The lamp's image on the eye: where on a wide eye and how large, in radii of the eyeball; it slides down under a
-# lowered lid and goes out as the eye shuts.
-_CATCH = np.array([-0.17, 0.17])
+# How dark it is in the corners, where the lids meet, and from how many radii between the lids it is light.
+_CORNER, _CORNER_REACH = 0.62, 0.60
+# The upper lip shades what is behind it: by how much, and over how many millimetres the shadow runs out.
+_LIP_SHADOW, _LIP_REACH = 0.42, 4.5
+# What comes forward to the lips is in the open: from how many millimetres behind them on, and how light it is there.
+_FORWARD, _OPEN_AIR = 12.0, 0.84
+# The lamp's image on the eye: where on a wide eye that looks ahead and how large, in radii of the eyeball. It goes a
+# part of the cornea's way with the gaze, slides down under a lowered lid and goes out as the eye shuts.
+_CATCH, _WITH_GAZE = np.array([-0.17, 0.17]), 0.4
 _CATCH_SIZE, _SHUT, _OPEN = 0.105, 0.05, 0.20
 # How far the bust may move, millimetres, before what had faded out would show.
 _STIRRED = 3.0
@@ -64,6 +70,8 @@ class Surface:
         self._rest: Recent[str, float] = Recent()
         self._creased = np.flatnonzero(look.wrinkle_masks.any(axis=1))
         self._masks = np.ascontiguousarray(look.wrinkle_masks[self._creased].T)
+        self._rests = look.wrinkle_rest or (1.0,) * len(look.wrinkle_drivers)
+        self._pupils = _pupils(look)
         self._hair: Recent[str, tuple[NDArray[np.intp], NDArray[np.float32]]] = Recent()
         self._templates: Recent[str, dict[str, NDArray[np.float32]]] = Recent()
 
@@ -154,10 +162,17 @@ class Surface:
     def _light_mouth(self, rows: NDArray[np.float32], identity: str, mesh: NDArray[np.float32]) -> None:
         rest = self._rest.get(identity, lambda: self._gap(self.rig.neutral(identity)))
         opening = float(_smooth(np.array((self._gap(mesh) - rest) / _OPEN_MOUTH)))
-        rows[self._inside, 10] *= 1 - self._depth_of_mouth * (1 - _CLOSED_MOUTH) * (1 - opening)
-        lips = mesh[self.look.edges["mouth_upper"], 2].max()
-        deep = (lips - rows[self._inside, 2] - _LIT_DEPTH) / _DARK_DEPTH
-        rows[self._inside, 10] *= 1 - _CAVITY * self._depth_of_mouth * _smooth(deep)
+        lip = mesh[self.look.edges["mouth_upper"]]
+        x, y, z = rows[self._inside, :3].T
+        behind = lip[:, 2].max() - z
+        light = rows[self._inside][:, (10, 8)]
+        forward = _smooth(1 - behind / _FORWARD)
+        light += (_OPEN_AIR - light).clip(0) * (self._depth_of_mouth * forward)[:, None]
+        shaded = (1 - _smooth((np.interp(x, lip[:, 0], lip[:, 1]) - y) / _LIP_REACH)) * (1 - forward)
+        light *= 1 - (_LIP_SHADOW * self._depth_of_mouth * shaded)[:, None]
+        light[:, 0] *= 1 - self._depth_of_mouth * (1 - _CLOSED_MOUTH) * (1 - opening)
+        light[:, 0] *= 1 - _CAVITY * self._depth_of_mouth * _smooth((behind - _LIT_DEPTH) / _DARK_DEPTH)
+        rows[self._inside, 10], rows[self._inside, 8] = light.T
 
     def _gap(self, mesh: NDArray[np.float32]) -> float:
         """Return how far the inner edges of the lips are apart, millimetres, where that is most."""
@@ -167,11 +182,12 @@ class Surface:
     def _crease(self, rows: NDArray[np.float32], identity: str, alpha: NDArray[np.float32]) -> None:
         style = self.look.style(identity)
         smooth = np.ones(len(self._creased), np.float32)
-        for gain, mask in zip(self._wrinkle_gains, self._masks, strict=True):
+        for gain, mask, rest in zip(self._wrinkle_gains, self._masks, self._rests, strict=True):
             # The more muscles fold the same skin, the less each of them adds: strong faces stay apart.
             pull = max(0.0, float(alpha @ gain))
             folded = pull / (1 + pull**3) ** (1 / 3)
-            active = style.wrinkles * (style.lines + (1 - style.lines) * folded)
+            calm = style.lines * rest
+            active = style.wrinkles * (calm + (1 - calm) * folded)
             if active:
                 smooth *= 1 - active * mask
         rows[self._creased, 13] = 1 - smooth
@@ -185,19 +201,27 @@ class Surface:
             below = (np.interp(points[:, 0], upper[:, 0], upper[:, 1]) - points[:, 1]) / radius
             above = (points[:, 1] - np.interp(points[:, 0], lower[:, 0], lower[:, 1])) / radius
             light = _LID_SHADOW + (1 - _LID_SHADOW) * _smooth(below / _LID_REACH)
+            light *= _CORNER + (1 - _CORNER) * _smooth((above + below) / _CORNER_REACH)
             rows[chosen, 10] = light * (0.72 + 0.28 * _smooth(above / 0.16))
-            rows[chosen, 11:13] = _catch_light(centre, radius, upper, lower)
+            pupil = self._pupils[chosen[self._pupils]]
+            gaze = (rows[pupil, :2].mean(0) - centre) / radius
+            lamp, rows[chosen, 12] = _catch_light(centre, radius, gaze, (upper, lower))
+            rows[chosen, LIGHT] = (points - centre) / radius - lamp
             rows[chosen, 13] = np.clip(above, -1, 1)
 
 
 def _catch_light(
-    centre: NDArray[np.float32], radius: float, upper: NDArray[np.float32], lower: NDArray[np.float32]
-) -> tuple[float, float]:
-    """Return how high on the eyeball the lamp is mirrored, in radii, and how brightly, 0 to 1."""
-    at = float(centre[0] + _CATCH[0] * radius)
-    top, bottom = (float((np.interp(at, lid[:, 0], lid[:, 1]) - centre[1]) / radius) for lid in (upper, lower))
-    height = min(float(_CATCH[1]), max(top - _CATCH_SIZE, (top + bottom) / 2))
-    return height, float(_smooth(np.array((top - bottom - _SHUT) / (_OPEN - _SHUT))))
+    centre: NDArray[np.float32],
+    radius: float,
+    gaze: NDArray[np.float32],
+    lids: tuple[NDArray[np.float32], NDArray[np.float32]],
+) -> tuple[NDArray[np.float32], float]:
+    """Return where on the eyeball the lamp is mirrored, in radii from its middle, and how brightly, 0 to 1."""
+    lamp = np.asarray(_CATCH + _WITH_GAZE * gaze, np.float32)
+    at = float(centre[0] + lamp[0] * radius)
+    top, bottom = (float((np.interp(at, lid[:, 0], lid[:, 1]) - centre[1]) / radius) for lid in lids)
+    lamp[1] = min(float(lamp[1]), max(top - _CATCH_SIZE, (top + bottom) / 2))
+    return lamp, float(_smooth(np.array((top - bottom - _SHUT) / (_OPEN - _SHUT))))
 
 
 class NormalField:
@@ -223,6 +247,14 @@ class NormalField:
         length = np.sqrt(np.einsum("ij,ij->i", normals, normals))
         normals /= np.maximum(length, 1e-12)[:, None]
         return normals
+
+
+def _pupils(look: Look) -> NDArray[np.intp]:
+    """Return the render vertices of the eyes in the middles of their pupils: eyes are mapped polar about these."""
+    if "eyes" not in look.layers:
+        return np.zeros(0, np.intp)
+    away = np.linalg.norm(look.layers["eyes"].uv - np.float32(0.5), axis=1)
+    return np.flatnonzero(away < away.min() + 1e-3)
 
 
 def _needed(rig: Rig, look: Look) -> NDArray[np.int32]:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 # What is left of red, green and blue where so much light gets in, 0 to 255: dark places are red.
 _CAVITY = np.linspace(0, 1, 256, dtype=np.float32)[:, None] ** np.array([0.50, 0.74, 0.78], np.float32)
 # How yellow teeth swallow light, at most.
-_STAINED = np.array([0.07, 0.14, 0.30], np.float32)
+_STAINED = np.array([0.06, 0.125, 0.23], np.float32)
 
 
 class Composer:

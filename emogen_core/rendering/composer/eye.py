@@ -58,7 +58,9 @@ class Eye:
         # Melanin and age make it yellower; towards the lids it is pinker and darker.
         worn = max(0.8 * deepness(look), 0.7 * look.lines)
         white = np.array([226, 219, 212]) / 255 - worn * np.array([0.035, 0.055, 0.085])
-        back = smooth(self._degrees, 30, 74)[..., None]
+        # Beside deep skin a sclera as white as that would stare.
+        white = white - deepness(look) * np.array([0.085, 0.090, 0.085])
+        back = smooth(self._degrees, 28, 66)[..., None]
         colour = white * (1 - back * np.array([0.10, 0.235, 0.225]))
         shown = self._veins * smooth(self._degrees, 29, 56) * (0.7 + 0.5 * look.redness)
         return np.asarray(colour - shown[..., None] * np.array([0.05, 0.20, 0.18]))

@@ -33,9 +33,12 @@ def lay_hair(colour: NDArray[np.float32], fields: Mapping[str, NDArray[np.float3
     sparse = (0.50 * (1 - long) + 0.30 * look.balding) * (1 - 0.6 * look.hair_curl)
     cover = cover * (1 - sparse * smooth(strands, 0.66, 0.28)) * min(1.0, 0.62 + 1.6 * long)
     own = rgb(look.hair_colour)
-    turned = smooth(strands + 2.0 * look.grey - 1.5, -0.60, 0.60)[:, None] if look.grey else np.float32(0)
+    # Combed hair turns grey strand by strand; in coils grey and dark hairs are too fine to be told apart.
+    apart = strands - 0.5 if not look.hair_curl else (1 - 0.75 * look.hair_curl) * (strands - 0.5)
+    turned = smooth(apart + 2.0 * look.grey - 1.0, -0.60, 0.60)[:, None] if look.grey else np.float32(0)
     hair: NDArray[np.floating] = own + (GREY - own) * turned
-    hair = hair * (1 + (1.15 - 0.55 * look.grey) * (strands - 0.5))[:, None]
+    contrast = (1.15 - 0.55 * look.grey) * (1 - 0.35 * look.hair_curl * look.grey)
+    hair = hair * (1 + contrast * (strands - 0.5))[:, None]
     gleam = (
         fields["sheen"][at] * strands**2 * (0.25 + 0.75 * long) * (1 - 0.75 * look.hair_curl) * (1 - 0.7 * look.grey)
     )

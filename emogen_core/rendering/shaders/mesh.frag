@@ -43,11 +43,13 @@ void main() {
     float key = clamp(dot(n, KEY) * 0.62 + 0.38, 0.0, 1.0);
     float fill = clamp(dot(n, FILL) * 0.6 + 0.4, 0.0, 1.0);
     vec3 c = albedo * diffuse.x * (key * vec3(0.84, 0.80, 0.755) + fill * vec3(0.19, 0.20, 0.22) + 0.16);
-    // The key light is mirrored nearer to the pupil than physics has it, and slides down under a lowered lid.
-    float h = clamp(dot(n, normalize(vec3(-0.17, diffuse.y, 1.0))), 0.0, 1.0);
+    // The lamp is mirrored as what it is, a soft box: a rounded square, brightest at its upper side, with a glow.
+    vec2 box = shine.xy * shine.xy;
+    float window = 1.0 - smoothstep(0.0008, 0.0080, sqrt(dot(box, box) + 0.9 * box.x * box.y));
+    float glow = 1.0 / (1.0 + 60.0 * (box.x + box.y));
     float g = clamp(dot(n, normalize(FILL + view)), 0.0, 1.0);
-    c += diffuse.z * (mix(0.10, 1.0, texel.a) * 1.5 * smoothstep(0.9925, 0.9965, h)
-        + smoothstep(0.34, 0.60, diffuse.x) * 0.10 * texel.a * smoothstep(0.975, 0.99, g) + 0.06 * pow(h, 40.0));
+    c += diffuse.z * (mix(0.12, 1.0, texel.a) * (1.25 + 5.0 * shine.y) * window
+        + smoothstep(0.34, 0.60, diffuse.x) * 0.06 * texel.a * smoothstep(0.955, 1.0, g) + 0.10 * glow * glow);
     // A line of tears lies on the lower lid.
     c += diffuse.z * key * 0.16 * smoothstep(0.005, 0.03, extra.x) * (1.0 - smoothstep(0.04, 0.085, extra.x));
     colour = vec4(mix(developed(c), background, gone), 1.0);
@@ -55,7 +57,9 @@ void main() {
     // What a fold's slope adds to the light or takes from it; in its shadow red light remains longest.
     float relief = (texel.a - 128.0 / 255.0) * 2.0 * extra.x;
     // Pores, hair and brows are darker than skin and shine less: that breaks the highlight up.
-    float rough = clamp(breakup * texel.g - 2.2, 0.10, 1.6);
+    // Hair lighter than the skin is matt, too; lips' insides, tongue and teeth are wet whatever their colour.
+    float lightness = breakup * texel.g;
+    float rough = extra.x < 0.0 ? 1.4 : clamp(min(lightness - 2.2, 6.4 - lightness), 0.10, 1.6);
     vec3 c = albedo * diffuse * (1.0 + relief * vec3(0.80, 1.0, 1.06)) + shine * rough * max(1.0 + 1.8 * relief, 0.0);
     colour = vec4(mix(developed(c), background, gone), 1.0);
 #endif

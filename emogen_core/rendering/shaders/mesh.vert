@@ -3,8 +3,8 @@
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 texcoord;
-layout(location = 3) in vec2 light;  // sight of the key light, translucency
-layout(location = 4) in vec4 tint;   // skin: occlusion, skin, gloss, wrinkles; eyes: lid shadow, catchlight's height and strength, way to the lower lid
+layout(location = 3) in vec2 light;  // sight of the key light, translucency; eyes: way from the lamp's image, in radii
+layout(location = 4) in vec4 tint;   // skin: occlusion, skin, gloss, wrinkles; eyes: lid shadow, nothing, catchlight's strength, way to the lower lid
 
 uniform mat4 V;
 uniform mat4 P;
@@ -15,7 +15,7 @@ uniform float shine_scale;
 out vec2 uv;
 out vec3 diffuse;
 out vec3 shine;
-out vec2 extra;  // wrinkle activation, height against which the bust fades
+out vec2 extra;  // wrinkle activation (below 0: always wet), height against which the bust fades
 
 #ifdef KIND_EYE
 out vec3 ray;
@@ -46,7 +46,9 @@ void main() {
     vec3 n = normalize(normal);
     vec3 view = normalize(cam_pos - position);
     float skin = tint.y;
-    vec3 wrap = WRAP * (0.25 + 0.75 * skin);
+    // Teeth have a skin of next to nothing; light goes through their edges.
+    float enamel = clamp(3.0 - 10.0 * skin, 0.0, 1.0);
+    vec3 wrap = WRAP * (0.25 + 0.75 * skin) + 0.55 * enamel;
     // Shadows on flesh are warm, between teeth too: light that gets there has been reflected by flesh.
     vec3 occlusion = pow(vec3(max(tint.x, 0.001)), mix(vec3(0.84, 1.0, 1.14), vec3(0.72, 1.02, 1.10), skin));
     vec3 sight = pow(vec3(max(light.x, 0.001)), mix(vec3(0.84, 1.0, 1.14), vec3(0.70, 1.05, 1.20), skin));
@@ -57,15 +59,17 @@ void main() {
     float through = light.y * skin * (0.35 + 0.65 * clamp(dot(-n, RIM) * 0.5 + 0.5, 0.0, 1.0));
     diffuse += through * vec3(0.34, 0.07, 0.035);
     // Enamel lets light in and gives it back warm.
-    diffuse *= 1.0 + clamp(3.0 - 10.0 * skin, 0.0, 1.0) * vec3(0.25, 0.23, 0.17);
+    diffuse *= 1.0 + enamel * vec3(0.07, 0.06, 0.05);
     float edge = pow(clamp(1.0 - clamp(dot(n, view), 0.0, 1.0), 0.0, 1.0), 4.0);
     float gloss = tint.z * shine_scale;
     shine = gloss * (KEY_COLOUR * light.x * lobes(n, KEY, view) + FILL_COLOUR * tint.x * lobes(n, FILL, view)
         + tint.x * edge * (0.06 * SKY + 0.22 * RIM_COLOUR * clamp(dot(n, RIM) + 0.45, 0.0, 1.0)));
-    extra = vec2(tint.w, position.y - fade.z * position.x * position.x);
+    extra = vec2(skin < 0.85 ? -1.0 : tint.w, position.y - fade.z * position.x * position.x);
     uv = texcoord;
 #ifdef KIND_EYE
     diffuse = tint.xyz;
+    shine = vec3(light, 0.0);
+    extra.x = tint.w;
     ray = view;
     facing = n;
 #endif

@@ -78,8 +78,9 @@ def build_atlas(geometry: HeadGeometry, gloss: NDArray[np.float32]) -> Atlas:
 
 
 # By index into SKIN_PARTS.
-_SKIN = np.array([1.0, 0.5, 0.9, 0.6, 0.12, 0.12])
-_GLOSS = np.array([1.0, 0.3, 0.6, 0.7, 0.9, 0.9])
+TONGUE = np.float32(0.6)
+_SKIN = np.array([1.0, 0.5, 0.9, TONGUE, 0.12, 0.12], np.float32)
+_GLOSS = np.array([1.0, 0.15, 0.6, 0.6, 0.9, 0.9])
 _INSIDE = np.array([0.0, 1.0, 0.0, 1.0, 1.0, 1.0])
 
 

@@ -15,7 +15,7 @@ from emogen_core.rendering.composer import Composer
 from emogen_core.rendering.look import HAIR_DEPTH, Layer, Look, save_look, style_of, topology_hash
 from emogen_core.rigs.head_mesh import build_geometry
 from emogen_core.rigs.look import wrinkles
-from emogen_core.rigs.look.atlas import SKIN_PARTS, build_atlas
+from emogen_core.rigs.look.atlas import SKIN_PARTS, TONGUE, build_atlas
 from emogen_core.rigs.look.bake import bake
 from emogen_core.rigs.look.canvas import make_canvas, sample_mask, step
 from emogen_core.rigs.look.eyes import LASH_REACH
@@ -40,6 +40,8 @@ PAINTED, SHIPPED = 2048, 1024
 _FAR_FROM_LIDS = 0.2  # decimetres
 # How far a lid's margin may lie from its inner rim: sideways, up and down, and forward, millimetres.
 _COLUMN, _LEVEL, _MARGIN = 1.2, 1.3, 5.0
+# From how many millimetres of its way down a lid's skin counts as rolled up, and how much of its shadow that takes.
+_ROLLED, _UNROLLED = (0.3, 2.5), 0.75
 
 
 def build_look(  # noqa: PLR0913 - the last three by keyword
@@ -70,7 +72,7 @@ def build_look(  # noqa: PLR0913 - the last three by keyword
     atlas = build_atlas(geometry, _gloss(geometry, lips))
     progress("painting")
     canvas = make_canvas(geometry, atlas, painted)
-    lids, occlusion = _lid_distances(geometry, canvas), _canvas_occlusion(rig, atlas, canvas)
+    lids, occlusion = _lid_distances(geometry, atlas, canvas, rig), _canvas_occlusion(rig, atlas, canvas)
     paint = make_paint(canvas, skin_fields(canvas, lips, ears, lids, occlusion), ears, min(painted, SHIPPED))
     place = (geometry.positions[atlas.layers["skin"].source] / 100).astype(np.float32)
     on_skin = atlas.layers["skin"].surface[:, 0] == 1
@@ -82,7 +84,7 @@ def build_look(  # noqa: PLR0913 - the last three by keyword
     composer = Composer(paint)
     for name, appearance in chosen.items():
         progress(f"tracing light on {name}")
-        light = _relaxed(bake(rig, name), atlas, geometry, lips)[kept]
+        light = _relaxed(_unrolled(bake(rig, name), rig), atlas, geometry, lips)[kept]
         baked[name] = np.column_stack([light, composer.hair(appearance) / HAIR_DEPTH])
         styles[name] = style_of(name, appearance, composer.tone(appearance))
     look = Look(
@@ -95,6 +97,7 @@ def build_look(  # noqa: PLR0913 - the last three by keyword
         bakes=baked,
         wrinkle_masks=(wrinkles.masks(place) * on_skin[:, None])[kept],
         wrinkle_drivers=wrinkles.drivers(),
+        wrinkle_rest=wrinkles.rests(),
         edges=_edges(geometry, rig),
         paint=paint,
     )
@@ -138,6 +141,15 @@ def _gloss(geometry: HeadGeometry, lips: NDArray[np.float32]) -> NDArray[np.floa
     return np.asarray(gloss.clip(0, 1), np.float32)
 
 
+def _unrolled(light: NDArray[np.float32], rig: Rig) -> NDArray[np.float32]:
+    """Return (N, 3) baked light, lifted on skin that is rolled up above an open eye and spread over a closed one."""
+    closing = sum(np.abs(rig.offsets[rig.shape_names.index(f"lidsClose.{side}")]) for side in "LR")[:, 1]
+    lift = _UNROLLED * step(closing, *_ROLLED)
+    lifted = light.copy()
+    lifted[:, :2] += (1 - light[:, :2]) * lift[:, None]
+    return lifted
+
+
 def _relaxed(
     light: NDArray[np.float32], atlas: Atlas, geometry: HeadGeometry, lips: NDArray[np.float32]
 ) -> NDArray[np.float32]:
@@ -147,28 +159,45 @@ def _relaxed(
     light = light[source].copy()
     skin = atlas.layers["skin"].surface[:, 0] == 1
     lip = sample_mask(lips, atlas.body_uv) * skin
-    sulcus = np.exp(-(((np.abs(x) - 0.30) / 0.17) ** 2 + ((y - 0.075) / 0.055) ** 2)) * skin * (z > -0.3)
-    for column, of_lips, of_sulcus in ((0, 0.60, 0.72), (1, 0.60, 0.80)):
+    sulcus = np.exp(-(((np.abs(x) - 0.27) / 0.18) ** 2 + ((y - 0.105) / 0.085) ** 2)) * skin * (z > -0.3)
+    for column, of_lips, of_sulcus in ((0, 0.60, 0.80), (1, 0.60, 0.86)):
         lift = 1 - (1 - of_lips * lip) * (1 - of_sulcus * sulcus)
         light[:, column] += (1 - light[:, column]) * lift
     kind = atlas.layers["skin"].surface[:, 0]
     deep, teeth = kind < 0.85, kind < 0.2
     light[deep, 0] = 0.22 + 0.78 * light[deep, 0]
-    light[teeth, 0] = 0.66 + 0.34 * light[teeth, 0]
+    light[teeth, 0] = 0.74 + 0.26 * light[teeth, 0]
+    light[kind == TONGUE, 0] = 0.45 + 0.55 * light[kind == TONGUE, 0]
     light[deep, 1] = np.maximum(light[deep, 1], 0.62 * light[deep, 0])
     return light
 
 
-def _lid_distances(geometry: HeadGeometry, canvas: Canvas) -> NDArray[np.float32]:
-    """Return (3, M) decimetres to the inner edge of the lids, to the roots of upper and of lower lashes."""
+def _lid_distances(geometry: HeadGeometry, atlas: Atlas, canvas: Canvas, rig: Rig) -> NDArray[np.float32]:
+    """Return (3, M) decimetres to the inner edge of the lids, to the roots of upper and of lower lashes.
+
+    They are measured on open eyes, where texels are; skin that is rolled up there near the lashes, but far from them
+    when the eye is shut, is as far as then.
+    """
+    opened = geometry.positions
+    shut = opened + sum(rig.offsets[rig.shape_names.index(f"lidsClose.{side}")] for side in "LR")
+    source = atlas.layers["skin"].source
+    before, after = (_to_lids(geometry, positions, positions[source] / 100) for positions in (opened, shut))
+    more = _spread(atlas, canvas, np.maximum(after - before, 0).T).T
+    return np.asarray(np.minimum(_to_lids(geometry, opened, canvas.place) + more, np.float32(_FAR_FROM_LIDS)))
+
+
+def _to_lids(
+    geometry: HeadGeometry, positions: NDArray[np.floating], places: NDArray[np.floating]
+) -> NDArray[np.float32]:
+    """Return (3, n) decimetres from (n, 3) places to rims and lashes of a head whose vertices are at ``positions``."""
     rim = np.intersect1d(geometry.part_vertices("skin"), geometry.part_vertices("sockets"))
-    ways = [geometry.positions[rim], *(_lash_roots(geometry, strips) for strips in ((0, 1), (2, 3)))]
+    ways = [positions[rim], *(_lash_roots(geometry, positions, strips) for strips in ((0, 1), (2, 3)))]
     trees = [cKDTree(way / 100) for way in ways]
-    apart = [tree.query(canvas.place, distance_upper_bound=_FAR_FROM_LIDS, workers=-1)[0] for tree in trees]
+    apart = [tree.query(places, distance_upper_bound=_FAR_FROM_LIDS, workers=-1)[0] for tree in trees]
     return np.minimum(np.asarray(apart, np.float32), np.float32(_FAR_FROM_LIDS))
 
 
-def _lash_roots(geometry: HeadGeometry, strips: Sequence[int]) -> NDArray[np.float64]:
+def _lash_roots(geometry: HeadGeometry, positions: NDArray[np.floating], strips: Sequence[int]) -> NDArray[np.float64]:
     """Return (n, 3) places close together along the lower edge of strips of lashes, as far as lashes grow."""
     vertices = geometry.part_vertices("lashes")
     strip, along, up = geometry.surface[vertices].T
@@ -177,19 +206,24 @@ def _lash_roots(geometry: HeadGeometry, strips: Sequence[int]) -> NDArray[np.flo
     for number in strips:
         edge = np.flatnonzero((strip == number) & (up < 1e-6))
         edge = edge[np.argsort(along[edge])]
-        line = geometry.positions[vertices[edge]]
+        line = positions[vertices[edge]]
         lines.append(np.stack([np.interp(dense, along[edge], line[:, axis]) for axis in range(3)], 1))
     return np.concatenate(lines)
 
 
 def _canvas_occlusion(rig: Rig, atlas: Atlas, canvas: Canvas) -> NDArray[np.float32]:
     """Return (M,) occlusion of the default identity at the texels, by the nearest of the layer's vertices."""
+    light = _unrolled(bake(rig, rig.identities[0]), rig)[atlas.layers["skin"].source, :1]
+    return _spread(atlas, canvas, light)[:, 0]
+
+
+def _spread(atlas: Atlas, canvas: Canvas, values: NDArray[np.floating]) -> NDArray[np.float32]:
+    """Return (M, c) at the texels of (R, c) values at the skin layer's vertices, from the nearest three."""
     layer: Layer = atlas.layers["skin"]
-    light = bake(rig, rig.identities[0])[layer.source, 0]
     uv = np.column_stack([canvas.at % canvas.size + 0.5, canvas.size - canvas.at // canvas.size - 0.5]) / canvas.size
     distance, nearest = cKDTree(layer.uv).query(uv, k=3, workers=-1)
     weight = 1 / np.maximum(distance, 1e-5)
-    return np.asarray((light[nearest] * weight).sum(1) / weight.sum(1), np.float32)
+    return np.asarray((values[nearest] * weight[..., None]).sum(1) / weight.sum(1)[:, None], np.float32)
 
 
 def _edges(geometry: HeadGeometry, rig: Rig) -> dict[str, NDArray[np.int32]]:

@@ -65,9 +65,18 @@ class Canvas:
     @cached_property
     def spacing(self) -> NDArray[np.float32]:
         """(M,) decimetres to the next texel, across or down, whichever is farther."""
+        return np.maximum(*self._ways)
+
+    @cached_property
+    def stretch(self) -> NDArray[np.float32]:
+        """(M,) how many times a texel is longer one way than the other, at least 1."""
+        return np.asarray(np.maximum(*self._ways) / np.maximum(np.minimum(*self._ways), 1e-6), np.float32)
+
+    @cached_property
+    def _ways(self) -> list[NDArray[np.float32]]:
         image = self.to_image(self.place)
-        ways = [np.linalg.norm(np.gradient(image, axis=axis), axis=-1) for axis in (0, 1)]
-        return self.from_image(np.asarray(np.maximum(*ways), np.float32))
+        steps = (np.linalg.norm(np.gradient(image, axis=axis), axis=-1) for axis in (0, 1))
+        return [self.from_image(np.asarray(way, np.float32)) for way in steps]
 
     def is_part(self, name: str) -> NDArray[np.bool_]:
         """(M,) which texels belong to a part."""

@@ -55,7 +55,7 @@ def veins() -> NDArray[np.uint8]:
             start = rng.uniform(0.65, 0.9)
             _vein(pen, rng, float(np.interp(start, *trunk)), float(start), float(start - rng.uniform(0.1, 0.25)), 90)
     small = np.asarray(image.resize((EYE_SIZE, EYE_SIZE), Image.Resampling.BOX), np.float64)
-    return np.asarray(np.clip(np.round(1.5 * gaussian_filter(small, 0.7)), 0, 255), np.uint8)
+    return np.asarray(np.clip(np.round(1.7 * gaussian_filter(small, 1.0)), 0, 255), np.uint8)
 
 
 def lashes(length: float) -> NDArray[np.uint8]:

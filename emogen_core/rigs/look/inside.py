@@ -17,17 +17,17 @@ if TYPE_CHECKING:
 
 # Height and width of the corner, as shares of the texture.
 CORNER = (208 / 1024, 544 / 1024)
-_BAG, _TONGUE, _SOCKET = (np.array(c, np.float32) / 255 for c in ((150, 64, 60), (186, 106, 102), (196, 128, 118)))
-_GUM = np.array([0.72, 0.42, 0.40], np.float32)
+_BAG, _TONGUE, _SOCKET = (np.array(c, np.float32) / 255 for c in ((150, 64, 60), (212, 136, 130), (196, 128, 118)))
+_GUM = np.array([0.78, 0.49, 0.46], np.float32)
 # Teeth from the front outward: central, lateral, canine, premolars, molar; canines are the yellowest.
 _ENAMEL = np.array(
     [
-        (0.905, 0.880, 0.820),
-        (0.897, 0.870, 0.805),
-        (0.885, 0.848, 0.770),
-        (0.882, 0.850, 0.778),
-        (0.874, 0.840, 0.768),
-        (0.865, 0.830, 0.760),
+        (0.955, 0.932, 0.898),
+        (0.948, 0.923, 0.887),
+        (0.932, 0.900, 0.852),
+        (0.930, 0.900, 0.855),
+        (0.920, 0.888, 0.842),
+        (0.910, 0.878, 0.832),
     ],
     np.float32,
 )
@@ -49,8 +49,9 @@ def paint_inside(canvas: Canvas) -> NDArray[np.float32]:
 
 
 def _tongue(canvas: Canvas) -> NDArray[np.float32]:
-    groove = 1 - 0.22 * np.exp(-((canvas.x / 0.018) ** 2))
-    buds = 1 + 0.07 * value_noise(canvas.place, 90, 31) + 0.05 * value_noise(canvas.place, 40, 32)
+    # A soft furrow with a finer one in it.
+    groove = 1 - 0.13 * np.exp(-((canvas.x / 0.040) ** 2)) - 0.05 * np.exp(-((canvas.x / 0.012) ** 2))
+    buds = 1 + 0.030 * value_noise(canvas.place, 90, 31) + 0.015 * value_noise(canvas.place, 40, 32)
     coated = step(canvas.z, 0.30, -0.05)[:, None] * np.array([0.04, 0.06, 0.05])
     return np.asarray((_TONGUE + coated) * (groove * buds)[:, None], np.float32)
 
@@ -77,9 +78,9 @@ def _relief(
 ) -> NDArray[np.float32]:
     """Return (n, 3) factors: every tooth a little other, warm roots, clear edges, dark and warm gaps."""
     factor = np.ones((len(down), 3)) * (1 + 0.02 * np.sin(tooth * 7.3 + 2))[:, None]
-    factor *= 1 - step(down, 0.86, 0.50)[:, None] * (0.02, 0.055, 0.12)
+    factor *= 1 - step(down, 0.86, 0.50)[:, None] * (0.015, 0.045, 0.075)
     # The cutting edge lets light through: a little darker and greyer, never blue.
-    factor *= 1 - (step(down, 0.88, 0.99) * step(down, 1.4, 1.1))[:, None] * (0.09, 0.075, 0.05)
+    factor *= 1 - (step(down, 0.88, 0.99) * step(down, 1.4, 1.1))[:, None] * (0.045, 0.045, 0.035)
     factor *= 1 + 0.03 * (np.exp(-(((np.abs(across) - 0.42) / 0.16) ** 2)) * step(down, 1.1, 0.7))[:, None]
-    gap = step(np.abs(across), 0.70, 1.0)[:, None] ** 1.6
-    return np.asarray(factor * (1 - gap * (0.36, 0.46, 0.52)), np.float32)
+    gap = step(np.abs(across), 0.76, 1.0)[:, None] ** 1.8
+    return np.asarray(factor * (1 - gap * (0.17, 0.24, 0.28)), np.float32)

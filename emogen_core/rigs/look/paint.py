@@ -93,7 +93,8 @@ def _brows(canvas: Canvas, size: int) -> dict[str, NDArray[Any]]:
 def _eye() -> dict[str, NDArray[Any]]:
     return {
         "iris": pack_grey(eyes.iris(), 92),
-        "veins": pack_grey(eyes.veins(), 90),
+        # Veins are faint and thin: at a lower quality the blocks of JPEG would be as strong.
+        "veins": pack_grey(eyes.veins(), 98),
         "lashes_short": pack_grey(eyes.lashes(_SHORT), 92),
         "lashes_long": pack_grey(eyes.lashes(_LONG), 92),
         "eye_degrees": np.array([EYE_DEGREES, IRIS_DEGREES, PUPIL_DEGREES], np.float32),

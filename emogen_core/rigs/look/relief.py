@@ -2,7 +2,7 @@
 
 A fold is a groove between two rolls. Across it, at distance ``d``, the skin stands at
 
-    h(d) = D (0.35 exp(-((d - 1.7 w) / w)^2) - exp(-sqrt(d^2 + e^2) / w)) (1 - (d / 3.4 w)^2)^2,     e = w / 3
+    h(d) = D (0.35 exp(-((d - 1.7 w) / w)^2) - exp(-sqrt(d^2 + e^2) / w)) (1 - (d / 3.4 w)^2)^2,     e = (1/3 + soft) w
 
 so it is steep and dark in a narrow core and bends softly far out. Lines wander, thicken, thin out and break off.
 The heights of all folds are summed; where the surface is tilted by its slope ``g``, the light that reaches it changes,
@@ -103,13 +103,15 @@ def _press(skin: _Skin, line: Line, rng: np.random.Generator, into: tuple[NDArra
     for path, depth, width in (stroke, *(_strand(stroke[0], line, rng) for _ in range(line.strands))):
         rows, distance, sample = skin.beside(skin.lifted(path), _REACH * float(width.max()))
         deep, wide = depth[sample], width[sample]
-        height[rows] += _profile(distance, deep, wide)
+        height[rows] += _profile(distance, deep, wide, line.soft)
         steep = np.maximum(deep, 0) / wide * np.minimum(1, _FINE / wide)
-        core[rows] += _CORE_DARK * steep * np.exp(-((distance / (_CORE_WIDTH * wide)) ** 2))
+        core[rows] += _CORE_DARK * (1 - line.soft) * steep * np.exp(-((distance / (_CORE_WIDTH * wide)) ** 2))
 
 
-def _profile(d: NDArray[np.float64], depth: NDArray[np.float64], width: NDArray[np.float64]) -> NDArray[np.float64]:
-    groove = np.exp(-np.sqrt(d**2 + (width / 3) ** 2) / width)
+def _profile(
+    d: NDArray[np.float64], depth: NDArray[np.float64], width: NDArray[np.float64], soft: float
+) -> NDArray[np.float64]:
+    groove = np.exp(-np.sqrt(d**2 + ((1 / 3 + soft) * width) ** 2) / width)
     rolls = 0.35 * np.exp(-(((d - 1.7 * width) / width) ** 2))
     window = np.clip(1 - (d / (_REACH * width)) ** 2, 0, 1) ** 2
     shape: NDArray[np.float64] = depth * (rolls - groove) * window
@@ -124,7 +126,7 @@ def _drawn(line: Line, rng: np.random.Generator) -> _Stroke:
     path = np.stack([PchipInterpolator(way, points[:, k])(t) for k in (0, 1)], 1)
     path += _wander(rng, (0.12, min(0.010, 0.035 * way[-1])), (0.04, min(0.003, 0.010 * way[-1])), length=way[-1])
     taper = np.sin(np.linspace(0, np.pi, _SAMPLES)) ** 0.8
-    uneven = np.clip(1 + 0.40 * _noise(rng, 0.14 / way[-1]), 0.35, 1.5)
+    uneven = np.clip(1 + 0.40 * (1 - 0.7 * line.soft) * _noise(rng, 0.14 / way[-1]), 0.35, 1.5)
     gaps = step(_noise(rng, 0.08 / way[-1]), -1.6, -0.8)
     depth = line.depth * taper * uneven * (1 - line.broken * (1 - gaps))
     width = line.width * np.clip(1 + 0.22 * _noise(rng, 0.15 / way[-1]), 0.6, 1.5) * (0.55 + 0.45 * taper)

@@ -46,11 +46,17 @@ def strands(canvas: Canvas, size: int, hair: NDArray[np.bool_]) -> NDArray[np.fl
 
 
 def coils(canvas: Canvas) -> NDArray[np.float32]:
-    """Return (M,) in [0, 1]: tightly coiled hair, grains of light over dark gaps."""
-    fine = canvas.from_image(band_noise(canvas.size, 1.8, 4.5, 81))
-    small = canvas.from_image(band_noise(canvas.size, 4.0, 9.0, 82))
-    clumps = fractal(canvas.place, {8: 0.030, 21: 0.050}, 83, canvas.spacing)
-    return np.asarray(np.clip(0.5 + 0.11 * fine + 0.085 * small + clumps, 0, 1), np.float32)
+    """Return (M,) in [0, 1]: tightly coiled hair, soft grains and winding threads of light over dark gaps.
+
+    Threads run where smooth noise crosses zero, so they close into coils.
+    """
+    threads, grains, tufts = (
+        canvas.from_image(band_noise(canvas.size, fine, coarse, seed))
+        for fine, coarse, seed in ((2.0, 4.5, 81), (2.2, 6.0, 84), (5.0, 12.0, 82))
+    )
+    wound = np.exp(-((threads / 0.6) ** 2)) - 0.5
+    clumps = fractal(canvas.place, {8: 0.04, 21: 0.05}, 83, canvas.spacing)
+    return np.asarray(np.clip(0.5 + 0.14 * wound + 0.075 * grains + 0.07 * tufts + clumps, 0, 1), np.float32)
 
 
 def sheen(canvas: Canvas) -> NDArray[np.float32]:

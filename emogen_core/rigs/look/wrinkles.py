@@ -34,6 +34,7 @@ class Line:
         depth: of the groove, decimetres; a ridge where negative.
         strands: how many finer lines run beside it.
         broken: how much of the depth is lost in its gaps, 0 to 1.
+        soft: 0 for a crease with a sharp dark core, 1 for a shallow trough without one.
     """
 
     points: tuple[_Point, ...]
@@ -41,6 +42,7 @@ class Line:
     depth: float
     strands: int = 0
     broken: float = 0.6
+    soft: float = 0.0
 
     def mirrored(self) -> Line:
         """Return its mirror image."""
@@ -58,6 +60,7 @@ class Group:
         spots: (x, y, rx, ry) Gaussian spots where it shows.
         lines: the creases; one that does not begin near the midline is drawn on both sides when ``side`` is 0.
         pebbles: (x, y, rx, ry, depth) ellipses of dimpled skin.
+        rest: how much of what old skin shows without any expression shows here, 0 to 1.
     """
 
     name: str
@@ -66,6 +69,7 @@ class Group:
     spots: tuple[tuple[float, float, float, float], ...]
     lines: tuple[Line, ...] = ()
     pebbles: tuple[tuple[float, float, float, float, float], ...] = ()
+    rest: float = 1.0
 
 
 def groups() -> list[Group]:
@@ -91,6 +95,11 @@ def drivers() -> tuple[dict[str, float], ...]:
         {name.replace(".S", ".L" if group.side > 0 else ".R"): gain for name, gain in group.drivers.items()}
         for group in groups()
     )
+
+
+def rests() -> tuple[float, ...]:
+    """Return for every group how much of it shows on old skin at rest, 0 to 1."""
+    return tuple(group.rest for group in groups())
 
 
 def _mask(place: NDArray[np.float32], group: Group) -> NDArray[np.float32]:
@@ -131,30 +140,32 @@ _SINGLE = [
         _both(browDown=0.85, browKnit=0.95, browOblique=0.35, noseWrinkle=0.25),
         ((0.0, 0.17, 0.11, 0.14),),
         (
-            Line(((0.052, 0.075), (0.068, 0.130), (0.062, 0.190), (0.048, 0.250)), 0.020, 0.0125, 1, 0.3),
-            Line(((0.018, 0.105), (0.024, 0.150), (0.020, 0.200)), 0.013, 0.0045, 0, 0.6),
-            Line(((0.098, 0.110), (0.112, 0.150), (0.108, 0.195)), 0.016, 0.0045, 0, 0.6),
+            Line(((0.052, 0.075), (0.068, 0.130), (0.062, 0.190), (0.048, 0.250)), 0.024, 0.0125, 1, 0.2, 0.35),
+            Line(((0.018, 0.105), (0.024, 0.150), (0.020, 0.200)), 0.016, 0.0035, 0, 0.4, 0.5),
+            Line(((0.098, 0.110), (0.112, 0.150), (0.108, 0.195)), 0.018, 0.0045, 0, 0.4, 0.5),
         ),
+        # Upright lines between the brows make a calm face look angry.
+        rest=0.35,
     ),
     Group(
         "bridge", 0,
         _both(noseWrinkle=0.9, browDown=0.35, noseWingRaise=0.15),
         ((0.0, 0.01, 0.10, 0.085),),
         (
-            Line(((-0.075, 0.062), (-0.03, 0.047), (0.0, 0.043), (0.04, 0.050), (0.078, 0.066)), 0.014, 0.0060, 0, 0.3),
-            Line(((-0.072, 0.010), (-0.02, -0.004), (0.0, -0.006), (0.070, 0.012)), 0.014, 0.0065, 1, 0.3),
-            Line(((-0.050, -0.050), (0.0, -0.062), (0.052, -0.048)), 0.012, 0.0040, 0, 0.5),
+            Line(((-0.075, 0.056), (-0.03, 0.05), (0, 0.048), (0.04, 0.051), (0.078, 0.058)), 0.02, 0.0065, 0, 0, 0.5),
+            Line(((-0.066, 0.006), (-0.02, 0.000), (0.0, -0.001), (0.064, 0.008)), 0.020, 0.0030, 0, 0, 0.6),
         ),
+        rest=0.4,
     ),
     Group(
         "bunny lines", 0,
         _both(noseWrinkle=1.0, noseWingRaise=0.5),
         ((0.095, -0.14, 0.065, 0.12),),
         (
-            Line(((0.048, -0.050), (0.085, -0.075), (0.125, -0.118)), 0.014, 0.0105, 1, 0.2),
-            Line(((0.046, -0.100), (0.085, -0.128), (0.130, -0.172)), 0.014, 0.0110, 1, 0.2),
-            Line(((0.052, -0.160), (0.088, -0.185), (0.124, -0.222)), 0.013, 0.0085, 1, 0.3),
+            # One long oblique fold on either side of the bridge: rows of short ones across it look like stitches.
+            Line(((0.064, -0.035), (0.090, -0.085), (0.116, -0.145), (0.138, -0.205)), 0.025, 0.0120, 0, 0, 0.4),
         ),
+        rest=0.3,
     ),
     Group(
         "chin", 0,
@@ -217,7 +228,12 @@ _PAIRED = [
             "mouthStretch.S": 0.25, "mouthRetract": 0.30, "cheekRaise.S": 0.20, "mouthPucker": -0.4,
         },
         ((0.19, -0.41, 0.09, 0.11), (0.27, -0.55, 0.09, 0.13)),
-        (Line(((0.158, -0.34), (0.192, -0.40), (0.232, -0.465), (0.266, -0.54), (0.284, -0.63)), 0.04, 0.018, 0, 0.2),),
+        (
+            Line(
+                ((0.158, -0.34), (0.192, -0.40), (0.232, -0.465), (0.266, -0.54), (0.284, -0.63)),
+                0.044, 0.020, 0, 0, 0.2,
+            ),
+        ),
     ),
     Group(
         "cheek fold", 1,
@@ -226,12 +242,12 @@ _PAIRED = [
             "mouthSmileOpen": 0.2,
         },
         ((0.36, -0.62, 0.06, 0.13),),
-        (Line(((0.340, -0.500), (0.362, -0.570), (0.366, -0.650), (0.350, -0.740)), 0.036, 0.0085, 0, 0.2),),
+        (Line(((0.340, -0.500), (0.362, -0.570), (0.366, -0.650), (0.350, -0.740)), 0.046, 0.0105, 0, 0, 0.6),),
     ),
     Group(
         "marionette", 1,
         {"mouthFrown.S": 0.95, "mouthDepress": 0.75, "lowerLipRetract": 0.35, "mouthPress.S": 0.25, "neckTighten": 0.3},
         ((0.255, -0.79, 0.07, 0.11),),
-        (Line(((0.262, -0.722), (0.272, -0.790), (0.264, -0.870)), 0.030, 0.0105, 0, 0.2),),
+        (Line(((0.262, -0.722), (0.272, -0.790), (0.264, -0.870)), 0.033, 0.0115, 0, 0, 0.25),),
     ),
 ]  # fmt: skip

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 # (amount, x, y, rx, ry): cheeks, nose and wings, chin, lids, inner corners; the forehead and round the mouth are paler.
 _REDDER = (
     (0.17, 0.40, -0.28, 0.20, 0.17), (0.20, 0.0, -0.385, 0.12, 0.11), (0.20, 0.15, -0.43, 0.06, 0.06),
-    (0.13, 0.0, -0.93, 0.18, 0.12), (0.11, 0.30, 0.06, 0.17, 0.06), (0.09, 0.22, -0.10, 0.12, 0.06),
+    (0.13, 0.0, -0.93, 0.18, 0.12), (0.06, 0.30, 0.06, 0.17, 0.06), (0.09, 0.22, -0.10, 0.12, 0.06),
     (-0.09, 0.0, 0.50, 0.45, 0.20), (-0.05, 0.30, -0.62, 0.12, 0.10),
 )  # fmt: skip
 # Where pores are widest: nose, inner cheeks, forehead, chin.
@@ -83,7 +83,7 @@ def _image(canvas: Canvas, image: NDArray[np.floating]) -> NDArray[np.float32]:
 
 def _mask(canvas: Canvas) -> NDArray[np.float32]:
     """Deep skin is darkest on the forehead's sides, round the eyes and the mouth, and on the neck."""
-    spots = ((0.55, 0.42, 0.42, 0.22, 0.22), (0.75, 0.29, 0.02, 0.20, 0.13), (0.75, 0.0, -0.66, 0.34, 0.20),
+    spots = ((0.55, 0.42, 0.42, 0.22, 0.22), (0.48, 0.29, 0.02, 0.20, 0.13), (0.75, 0.0, -0.66, 0.34, 0.20),
              (-0.4, 0.36, -0.28, 0.16, 0.13))  # fmt: skip
     cloudy = 0.35 + _spots(canvas, spots) + 0.12 * value_noise(canvas.place, 7, 51)
     return np.asarray(np.clip(cloudy + 0.3 * step(canvas.y, -1.0, -1.4), 0, 1), np.float32)
@@ -96,8 +96,9 @@ def _pores(canvas: Canvas) -> NDArray[np.float32]:
     )
     pits = np.where(pits > 0, 0.40 * pits, pits)
     wide = np.clip(0.45 + _spots(canvas, _PORED), 0, 1.1)
-    # Where texels are large pores would be, too.
-    carried = step(canvas.spacing, 0.0050, 0.0032)
+    # Where texels are large pores would be, too;
+    # and where they are drawn out, as at the temples, pores would be streaks.
+    carried = step(canvas.spacing, 0.0050, 0.0032) * step(canvas.stretch, 2.6, 1.5)
     return np.asarray(np.clip(0.40 * pits * wide * carried, -1, 0.6) * canvas.is_part("skin"), np.float32)
 
 

@@ -25,6 +25,7 @@ def test_a_stored_look_reads_back_the_same(tmp_path):
     assert again.hash == digest
     assert again.styles == look.styles
     assert again.topology == look.topology
+    assert again.wrinkle_rest == look.wrinkle_rest
     for name, layer in look.layers.items():
         for part in ("source", "triangles", "surface"):
             assert np.allclose(getattr(again.layers[name], part), getattr(layer, part), atol=1 / 255)

@@ -158,12 +158,77 @@ def test_every_gene_alone_gives_finite_rows(surface, identity):
 @pytest.mark.parametrize("identity", rig.identities)
 def test_the_catchlight_stays_between_the_lids_and_goes_out_with_them(surface, identity):
     eyes = [rows_of(surface, w, identity)["eyes"] for w in (face(), face(lidsSlit=0.5), face(lidsClose=1))]
-    heights = [rows[:, 11].max() for rows in eyes]
+    heights = [lamp(rows)[1] for rows in eyes]
     strengths = [rows[:, 12].max() for rows in eyes]
     assert heights[0] >= heights[1] - 1e-6
     assert strengths[0] == pytest.approx(1)
     assert strengths[1] > 0.3
     assert strengths[2] < 0.1
+
+
+def lamp(rows):
+    """Return where the lamp's image lies on the left eye, in radii from its middle."""
+    left = rows[rows[:, 0] > 0]
+    low, high = left[:, :2].min(0), left[:, :2].max(0)
+    place = (left[:, :2] - (low + high) / 2) / ((high[0] - low[0]) / 2) - left[:, 8:10]
+    assert np.ptp(place, axis=0) == pytest.approx(0, abs=1e-4)
+    return place.mean(0)
+
+
+def test_the_catchlight_follows_the_gaze_a_part_of_its_way(surface):
+    right, ahead, left = (lamp(rows_of(surface, w)["eyes"])[0] for w in (face(gazeRight=1), face(), face(gazeLeft=1)))
+    assert ahead < 0  # the lamp stands on the head's right
+    assert 0.05 < abs(left - ahead) < 0.4
+    assert 0.05 < abs(right - ahead) < 0.4
+    assert (left - ahead) * (right - ahead) < 0
+
+
+@pytest.mark.parametrize("identity", rig.identities)
+def test_eyes_are_darkest_under_the_lid_and_in_their_corners(surface, identity):
+    rows, look = rows_of(surface, face(), identity)["eyes"], surface.look
+    mesh = rig.neutral(identity)
+    upper, lower = mesh[look.edges["left_upper"]], mesh[look.edges["left_lower"]]
+    inside = rows[:, 0] > max(upper[0, 0], lower[0, 0])
+    x, y = rows[inside, 0], rows[inside, 1]
+    top, bottom = (np.interp(x, lid[:, 0], lid[:, 1]) for lid in (upper, lower))
+    seen = (y < top) & (y > bottom)
+    across = (x - upper[0, 0]) / np.ptp(upper[:, 0])
+    middle = np.abs(across - 0.5) < 0.2
+    light = rows[inside, 10]
+    assert light[seen & ~middle].mean() < 0.9 * light[seen & middle & (y < (top + bottom) / 2)].mean()
+
+
+def test_the_upper_lip_shades_the_teeth_behind_it(surface):
+    layer = surface.look.layers["skin"]
+    rows = rows_of(surface, face(mouthSmileOpen=1, lowerLipRetract=1))["skin"]
+    lip = vertices(rig, "female", face(mouthSmileOpen=1, lowerLipRetract=1))[0][surface.look.edges["mouth_upper"]]
+    front = (layer.surface[:, 0] < 0.2) & (np.abs(rows[:, 0]) < 10) & (rows[:, 5] > 0.5)
+    below = np.interp(rows[:, 0], lip[:, 0], lip[:, 1]) - rows[:, 1]
+    near, far = front & (below > -1) & (below < 1.5), front & (below > 4) & (below < 9)
+    assert near.any()
+    assert far.any()
+    for column in (8, 10):
+        assert rows[near, column].mean() < 0.85 * rows[far, column].mean()
+
+
+def test_a_tongue_put_out_comes_into_the_light(surface):
+    tongue = np.isclose(surface.look.layers["skin"].surface[:, 0], 0.6, atol=1e-3)
+    kept, out = (rows_of(surface, w)["skin"][tongue] for w in (face(jawOpen=0.5), face(jawOpen=0.5, tongueOut=1)))
+    tip = out[:, 2] > np.percentile(out[:, 2], 90)
+    assert out[tip, 10].mean() > 0.5
+    assert out[tip, 10].mean() > 1.3 * kept[tip, 10].mean()
+
+
+def test_lines_between_the_brows_hardly_show_at_rest(surface):
+    look = surface.look
+    drivers = [set(drivers) for drivers in look.wrinkle_drivers]
+    glabella = next(g for g, names in enumerate(drivers) if {"browKnit.L", "browDown.L", "noseWrinkle.L"} <= names)
+    everywhere = Surface(rig, replace(look, wrinkle_rest=()))
+    at = look.wrinkle_masks[:, glabella] > 0.9
+    calm, strong = (rows_of(s, face(), "caucasian-male-old")["skin"][at, 13].mean() for s in (surface, everywhere))
+    assert 0 < calm < 0.7 * strong
+    knit, same = (rows_of(s, face(browKnit=1), "female")["skin"][at, 13] for s in (surface, everywhere))
+    assert np.array_equal(knit, same)
 
 
 def test_the_mouth_grows_dark_behind_the_lips(surface):

@@ -114,6 +114,15 @@ def test_wrinkle_groups_match_their_drivers_and_the_rig():
         assert max(drivers.values()) > 0.4
 
 
+def test_every_group_says_how_much_of_it_rests_and_no_fold_crosses_the_nose_but_at_its_root():
+    assert len(wrinkles.rests()) == len(wrinkles.groups())
+    assert all(0 < rest <= 1 for rest in wrinkles.rests())
+    bunny = next(group for group in wrinkles.groups() if group.name == "bunny lines")
+    assert all(min(abs(x) for x, _ in line.points) > 0.05 for line in bunny.lines)
+    bridge = next(group for group in wrinkles.groups() if group.name == "bridge")
+    assert all(y > -0.02 for line in bridge.lines for _, y in line.points)
+
+
 def test_wrinkles_mirror():
     place = np.random.default_rng(1).uniform((-0.8, -1.2, -0.5), (0.8, 0.8, 0.4), (500, 3)).astype(np.float32)
     names = [group.name for group in wrinkles.groups()]

@@ -64,6 +64,13 @@ def test_deeper_is_stronger_and_the_ends_run_out(flat):
     assert np.abs(end - SMOOTH).max() < 0.5 * np.abs(middle - SMOOTH).max()
 
 
+def test_a_soft_fold_has_no_dark_core(flat):
+    sharp, soft = (pressed(flat, Line(ACROSS.points, 0.02, 0.008, 0, 0, soft)) for soft in (0.0, 0.8))
+    assert SMOOTH - soft.min() < 0.6 * (SMOOTH - sharp.min())
+    steps = [np.abs(np.diff(relief, axis=0)).max() for relief in (sharp, soft)]
+    assert steps[1] < 0.6 * steps[0]
+
+
 def test_the_right_side_lies_opposite_the_left(flat):
     line = Line(((0.1, 0.2), (0.15, 0.0), (0.1, -0.2)), 0.02, 0.008, broken=0.0)
     left, right = (np.abs(pressed(flat, line, side=side) - SMOOTH) for side in (1, -1))
