@@ -41,6 +41,8 @@ OVERLAP_VERTICES = 20
 OVERLAP_MILLIMETRES = 0.3
 # Middles of four equal parts of [0, 1], but the lowest: hardly anything breaks there.
 NODES = (0.375, 0.625, 0.875)
+# A triangle that only the corrective turns over counts so many times more: it may mend stretch, never at that price.
+HARM = 4
 # Pairs that break less than this at the highest of these are not worth a shape.
 SMALLEST_DAMAGE = 8
 
@@ -111,8 +113,9 @@ class Trial:
         gain = 0.0
         for u, v in product(NODES[-nodes:], NODES[-nodes:]):
             piercing = u == v == NODES[-1] and nodes > 1
-            corrected = self._sum(u, v) + u * v * corrective
-            gain += self.added(u, v, piercing).total - self.gauge.damage(corrected, piercing).total
+            before = self.added(u, v, piercing)
+            after = self.gauge.damage(self._sum(u, v) + u * v * corrective, piercing)
+            gain += before.total - after.total - HARM * max(0, after.flips - before.flips)
         return gain / (len(NODES) + 1) ** 2
 
     def _sum(self, u: float, v: float) -> Mesh:

@@ -166,6 +166,8 @@ def _carried(points: Mesh, pushed: Mesh) -> csr_array:
 
 def _largest(share: csr_array, amount: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return (n,) the largest of what (m,) amounts bring each row of (n, m) shares."""
+    if not share.nnz:
+        return np.zeros(share.shape[0])
     brought: NDArray[np.float64] = (share @ diags_array(amount)).max(axis=1).toarray().ravel()
     return brought
 

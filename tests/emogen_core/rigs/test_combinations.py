@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from emogen_core.rigs.candidates import EASED, OFFSET_METHODS, RULES, Deriver, Pair, overlap
-from emogen_core.rigs.combinations import KEPT, Trial, best_pair, choose_pairs
+from emogen_core.rigs.combinations import HARM, KEPT, Trial, best_pair, choose_pairs
 from emogen_core.rigs.quality import Gauge
 from tests.emogen_core.rigs.patch import Patch, points
 
@@ -82,6 +82,16 @@ def test_a_gain_is_the_mean_over_the_weights_of_both():
     # Added, 1 + 1.4 (u + v) passes 3 for u + v > 1.43 only: at (.625, .875) both ways round and at (.875, .875).
     undone = trial.gain(-WIDE)
     assert undone == pytest.approx(3 * len(gauge.triangles) / 16)
+
+
+def test_triangles_that_only_a_corrective_turns_over_cost_more_than_any_it_mends():
+    gauge = Gauge(points(), Patch().triangles)
+    # The two shapes stretch every triangle; the corrective takes that back and turns some over instead.
+    turned = -WIDE * np.where(points()[:, :1] > 0, 4.0, 1.0)
+    trial = Trial(gauge, WIDE, WIDE)
+    at_one = gauge.damage(points() + 0.875 * 2 * WIDE + 0.875**2 * turned)
+    assert at_one.flips > 0
+    assert trial.gain(turned, 1) == (trial.added(0.875, 0.875, False).total - at_one.total - HARM * at_one.flips) / 16
 
 
 def test_rules_come_first_and_only_gaining_pairs_follow():
