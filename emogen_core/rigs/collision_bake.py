@@ -7,7 +7,6 @@ that no slit opens, the head is moved as the collision correctives would.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,7 +14,6 @@ from scipy.spatial.distance import cdist
 
 from emogen_core.correctives.collision.detect import detect
 from emogen_core.correctives.collision.model import ZONES
-from emogen_core.correctives.collision.regions import judge_anchors, target_faces
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -29,13 +27,6 @@ TOLERANCE = 0.07
 MARGIN = 0.0
 ROUNDS = 20
 _REACH = 1.3
-
-
-def settle_neutrals(rig: Rig) -> Rig:
-    """Return the rig with neutrals in which neither lips nor teeth collide."""
-    anchors, target = judge_anchors(rig), target_faces(rig)
-    heads = {name: settled(rig, mesh, anchors, target) for name, mesh in rig.neutrals.items()}
-    return replace(rig, neutrals={name: mesh.astype(np.float32) for name, mesh in heads.items()})
 
 
 def settled(rig: Rig, neutral: NDArray[np.floating], anchors: Anchors, target: NDArray[np.intp]) -> NDArray[np.float64]:
