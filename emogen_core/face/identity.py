@@ -1,8 +1,8 @@
 """The identity document: a small JSON object that says which head is worn and what it looks like.
 
 It is plain data with one canonical form: values rounded to `DECIMALS`, every macro parameter written out, sliders that
-stand at 0 left out, keys sorted. Its hash is SHA-256 over that form and the hash of the space of heads, because the
-same numbers mean another head in another space. The appearance is carried along as it is, checked to be plain JSON.
+stand at 0 left out, an appearance in full or not at all, keys sorted. Its hash is SHA-256 over that form and the hash
+of the space of heads, because the same numbers mean another head in another space.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from emogen_core.errors import IdentityError, InvalidInputError, expected
+from emogen_core.face.appearance import Appearance
 from emogen_core.face.space import ADULT, ANCESTRIES
 
 if TYPE_CHECKING:
@@ -26,7 +27,6 @@ FORMAT = "emogen-identity"
 VERSION = 1
 DECIMALS = 4
 NAME_LENGTH = 80
-APPEARANCE_BYTES = 16 * 1024
 DOCUMENT_BYTES = 64 * 1024
 _HASH_LETTERS = 12
 
@@ -43,7 +43,7 @@ class Identity:
     Attributes:
         name: what people call it.
         head: parameter -> value, a point of the space; what is not named has its default.
-        appearance: what `emogen_core.face.appearance` makes of it; empty for the nearest preset's look.
+        appearance: document of an `Appearance`; empty for the look that heads of its sex, age and ancestry have.
     """
 
     name: str
@@ -170,15 +170,15 @@ def _name(name: object) -> str:
 
 
 def _appearance(appearance: object) -> dict[str, Any]:
+    """Return a document of an appearance with its numbers rounded, or an empty one."""
     fields = _object("appearance", appearance, set(), None)
+    if not fields:
+        return {}
     try:
-        text = _canonical(fields)
-    except (TypeError, ValueError, RecursionError) as error:
-        raise IdentityError(f"appearance: expected plain JSON with finite numbers, got {error}") from error
-    if len(text) > APPEARANCE_BYTES:
-        _refuse("appearance", f"at most {APPEARANCE_BYTES} bytes", len(text))
-    plain: dict[str, Any] = json.loads(text)
-    return plain
+        plain = Appearance.from_document(fields).to_document()
+    except InvalidInputError as error:
+        raise IdentityError(str(error)) from error
+    return {name: _rounded(value) if isinstance(value, float) else value for name, value in plain.items()}
 
 
 def _object(what: str, value: object, required: set[str], known: set[str] | None) -> dict[str, Any]:

@@ -34,6 +34,8 @@ SEXES = ("female", "male")
 # The years at which the source's age targets stand in its own scale.
 AGES: Mapping[str, float] = {"child": 10.0, "young": 25.0, "old": 90.0}
 ADULT = 18.0
+# Shares of the heads that are named after a sex alone, and of heads that say nothing of ancestry.
+DEFAULT_MIX: Mapping[str, float] = {"african": 0.2, "asian": 0.3, "caucasian": 0.5}
 # Shares of ancestry may miss one by this much, for they are written with few decimals.
 SHARE_TOLERANCE = 1e-3
 BODY = ("weight", "muscle")

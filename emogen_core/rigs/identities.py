@@ -10,14 +10,12 @@ from typing import TYPE_CHECKING
 
 from emogen_core.errors import IdentityError, expected
 from emogen_core.face.identity import Identity
-from emogen_core.face.space import AGES, ANCESTRIES, SEXES
+from emogen_core.face.space import AGES, ANCESTRIES, DEFAULT_MIX, SEXES
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     Point = Mapping[str, float]
-
-_MIX = {"african": 0.2, "asian": 0.3, "caucasian": 0.5}
 
 
 def _point(sex: str, age: str, mix: Mapping[str, float]) -> Point:
@@ -25,7 +23,7 @@ def _point(sex: str, age: str, mix: Mapping[str, float]) -> Point:
 
 
 IDENTITIES: Mapping[str, Point] = {
-    **{sex: _point(sex, "young", _MIX) for sex in SEXES},
+    **{sex: _point(sex, "young", DEFAULT_MIX) for sex in SEXES},
     **{
         f"{ancestry}-{sex}-{age}": _point(sex, age, {ancestry: 1.0})
         for ancestry in ANCESTRIES

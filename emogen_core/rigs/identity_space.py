@@ -10,7 +10,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from emogen_core.face.space import AGES, ANCESTRIES, BODY, SEXES, IdentitySpace, Parameter, Target, topology_hash
+from emogen_core.face.space import (
+    AGES,
+    ANCESTRIES,
+    BODY,
+    DEFAULT_MIX,
+    SEXES,
+    IdentitySpace,
+    Parameter,
+    Target,
+    topology_hash,
+)
 from emogen_core.rigs.base_mesh import MILLIMETRES, symmetric
 from emogen_core.rigs.detail_table import DETAILS
 from emogen_core.rigs.eyeballs import eyeball
@@ -29,7 +39,6 @@ _DESCRIPTION = {
     "weight": Parameter("weight", "macro", -1.0, 1.0, 0.0, "lean to heavy"),
     "muscle": Parameter("muscle", "macro", -1.0, 1.0, 0.0, "slack to strong"),
 }
-_DEFAULT_MIX = {"african": 0.2, "asian": 0.3, "caucasian": 0.5}
 # What moves less than this, millimetres, is not stored.
 _SEEN = 0.02
 
@@ -58,7 +67,7 @@ def bake_space(source: Source, geometry: HeadGeometry, low: NDArray[np.float64])
 
 def _parameters() -> tuple[Parameter, ...]:
     shares = (
-        Parameter(name, "macro", 0.0, 1.0, _DEFAULT_MIX[name], f"share of the source's {name} preset")
+        Parameter(name, "macro", 0.0, 1.0, DEFAULT_MIX[name], f"share of the source's {name} preset")
         for name in ANCESTRIES
     )
     order = (_DESCRIPTION["sex"], _DESCRIPTION["age"], *shares, _DESCRIPTION["weight"], _DESCRIPTION["muscle"])

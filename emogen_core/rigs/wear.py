@@ -6,17 +6,23 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from emogen_core.errors import InvalidInputError, expected
 from emogen_core.face.identity import identity_hash, require_adult, worn_as
 from emogen_core.face.space import ANCESTRIES, topology_hash
 from emogen_core.rendering.worn import WornHead, worn_rig
 from emogen_core.rigs.adapt import Fitter
+from emogen_core.rigs.default_look import default_appearance
 from emogen_core.rigs.identities import IDENTITIES
+from emogen_core.rigs.look.presets import presets
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+    from numpy.typing import NDArray
 
     from emogen_core.face.identity import Identity
     from emogen_core.face.rig import Rig
@@ -53,7 +59,7 @@ def fit_head(rig: Rig, space: IdentitySpace, identity: Identity, *, moving: bool
     Args:
         rig: the face model that the space was made for.
         space: the space of heads.
-        identity: the head; without an appearance it wears the style of the nearest preset.
+        identity: the head; without an appearance it wears the default of `emogen_core.rigs.default_look`.
         moving: whether its shapes are fitted too, which takes longest; a neutral portrait is the same without. Such
             a head is not the head yet, so its name ends in ``-still``.
 
@@ -63,9 +69,10 @@ def fit_head(rig: Rig, space: IdentitySpace, identity: Identity, *, moving: bool
     """
     name, known = worn_name(identity, space), fitter(rig, space)
     like = nearest_preset(identity.head, space)
+    look = _look(identity, space, like)
     if not moving:
-        return WornHead(f"{name}-still", known.neutral(identity.head), None, identity.appearance, like)
-    return WornHead(name, *known.fit(identity.head), identity.appearance, like)
+        return WornHead(f"{name}-still", known.neutral(identity.head), None, look, like)
+    return WornHead(name, *known.fit(identity.head), look, like)
 
 
 def worn_name(identity: Identity, space: IdentitySpace) -> str:
@@ -88,14 +95,19 @@ def fitter(rig: Rig, space: IdentitySpace) -> Fitter:
 
 def nearest_preset(point: Mapping[str, float], space: IdentitySpace) -> str:
     """Return the preset whose sex, age and ancestry come nearest to a point's."""
+    place = _place(point, space)
+    return min(IDENTITIES, key=lambda name: np.abs(_place(IDENTITIES[name], space) - place).sum())
 
-    def value(of: Mapping[str, float], name: str) -> float:
-        return of.get(name, space.ranges[name].default)
 
-    def away(preset: str) -> float:
-        other = IDENTITIES[preset]
-        return sum(abs(value(point, name) - value(other, name)) for name in ("sex", *ANCESTRIES)) + (
-            abs(value(point, "age") - value(other, "age")) / _YEARS
-        )
+def _place(point: Mapping[str, float], space: IdentitySpace) -> NDArray[np.float64]:
+    """Return what presets are compared by, (5,): sex, shares of ancestry, and age in units of `_YEARS`."""
+    value = {name: point.get(name, space.ranges[name].default) for name in ("sex", *ANCESTRIES, "age")}
+    return np.array([*value.values()]) / (1, 1, 1, 1, _YEARS)
 
-    return min(IDENTITIES, key=away)
+
+def _look(identity: Identity, space: IdentitySpace, like: str) -> Mapping[str, Any]:
+    """Return the document of what a head wears; empty where that is the style of the preset that it is like."""
+    if identity.appearance:
+        return identity.appearance
+    look = default_appearance(identity.head, space)
+    return {} if look == presets()[like] else look.to_document()

@@ -114,7 +114,7 @@ def draw(name: Name, out: Out, width: Width = 400, height: Height = 480, backend
 
 
 def portrait(identity: Identity, space: IdentitySpace, width: int, height: int, backend: str) -> bytes:
-    """Return the PNG of an identity's neutral, in its own appearance or that of the preset it is nearest to."""
+    """Return the PNG of an identity's neutral, in its own appearance or the one of its sex, age and ancestry."""
     wearing, setup = import_module("emogen_core.rigs.wear"), import_module("emogen_core.rendering.setup")
     pipeline = import_module("emogen_core.correctives.pipeline")
     settings = import_module("emogen_core.rendering.protocol").RenderSettings(width, height)

@@ -71,10 +71,10 @@ async def preview(me: Me, form: OwnForm, house: Services) -> Response:
     """Return the portrait of the form's head, for the page's script."""
     try:
         identity, picture = await _drawn(me, form, house)
-        signed = await run(house.heads.signed, identity)
+        headers = await run(_told, identity, house)
     except ServiceError as error:
         return JSONResponse(error.body(), status_of(error))
-    return Response(picture, media_type="image/png", headers={"X-Head-Hash": str(signed["hash"])})
+    return Response(picture, media_type="image/png", headers=headers)
 
 
 @router.post("/document", response_model=None)
@@ -129,6 +129,12 @@ def _identity(form: Form, house: House) -> Identity:
 
 def _signed(form: Form, house: House) -> dict[str, Any]:
     return house.heads.signed(_identity(form, house))
+
+
+def _told(identity: Identity, house: House) -> dict[str, str]:
+    """Return what the page's script shows besides the picture: the hash, and the look that the head wears."""
+    look = json.dumps(head_form.painted(house.heads.appearance(identity)))
+    return {"X-Head-Hash": str(house.heads.signed(identity)["hash"]), "X-Head-Look": look}
 
 
 def _emotion(form: Form) -> str:

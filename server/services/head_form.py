@@ -96,14 +96,19 @@ def looks(appearance: Appearance) -> dict[str, list[Control]]:
     return found
 
 
+def painted(appearance: Appearance) -> dict[str, str]:
+    """Return the fields of the form that stand for a look."""
+    return {control.name: control.value for controls in looks(appearance).values() for control in controls}
+
+
 def fields(identity: Identity, appearance: Appearance, space: IdentitySpace) -> Iterator[tuple[str, str]]:
     """Yield the fields of the form that stands for a head in a look."""
     yield "name", identity.name
     if identity.appearance:
         yield OWN_LOOK, "1"
-    for controls in (*groups(identity, space).values(), *looks(appearance).values()):
-        for control in controls:
-            yield control.name, control.value
+    for controls in groups(identity, space).values():
+        yield from ((control.name, control.value) for control in controls)
+    yield from painted(appearance).items()
 
 
 def _look(name: str, known: Mapping[str, Any], value: Any) -> Control:

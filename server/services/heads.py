@@ -9,19 +9,17 @@ from __future__ import annotations
 
 import threading
 from collections import OrderedDict
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from emogen_core.correctives.pipeline import face_weights
-from emogen_core.face.appearance import Appearance
 from emogen_core.face.identity import signed_document
 from emogen_core.rendering.protocol import RenderSettings
 from emogen_core.rendering.worn import WornHead, worn_rig
+from emogen_core.rigs.default_look import appearance_of
 from emogen_core.rigs.identities import IDENTITIES, preset
-from emogen_core.rigs.look.presets import presets
-from emogen_core.rigs.wear import nearest_preset
 
 from .config import DEMO
 from .errors import ConflictError, InvalidError, NotFoundError
@@ -32,6 +30,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from emogen_core.face.appearance import Appearance
     from emogen_core.face.identity import Identity
     from emogen_core.face.rig import Rig
     from emogen_core.face.space import IdentitySpace
@@ -70,17 +69,14 @@ class Heads:
         return (NEUTRAL, *self.journal.rig.emotion_sets)
 
     def start(self, name: str) -> Identity:
-        """Return a preset with its look written out, to go on from.
+        """Return a preset to go on from.
 
         Raises:
             NotFoundError: there is no such preset.
         """
         if name not in self.presets:
             raise NotFoundError("There is no such head.", field="from", got=name)
-        look = presets()[name].to_document()
-        # Some are blends with endless decimals; nobody sees the fifth.
-        plain = {field: round(value, 4) if isinstance(value, float) else value for field, value in look.items()}
-        return replace(preset(name), appearance=plain)
+        return preset(name)
 
     def read(self, document: object) -> Identity:
         """Return what a document describes; raises `InvalidError`, as a study would."""
@@ -91,10 +87,8 @@ class Heads:
         return signed_document(identity, self.space)
 
     def appearance(self, identity: Identity) -> Appearance:
-        """Return the look of an identity: its own, or that of the nearest preset."""
-        if identity.appearance:
-            return Appearance.from_document(dict(identity.appearance))
-        return presets()[nearest_preset(identity.head, self.space)]
+        """Return the look of an identity: its own, or that of its sex, age and ancestry."""
+        return appearance_of(identity, self.space)
 
     def portrait(self, name: str, *, large: bool = False) -> Future[bytes]:
         """Return the promise of a preset's neutral portrait.

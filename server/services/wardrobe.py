@@ -17,7 +17,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
 from emogen_core.errors import EmogenError, IdentityError
-from emogen_core.face.appearance import Appearance
 from emogen_core.face.identity import read_identity, require_adult, signed_document
 from emogen_core.rendering.worn import WornHead, worn_rig
 
@@ -85,15 +84,13 @@ class Wardrobe:
         return self._tailor.space
 
     def read(self, document: object, where: str = "identity", *, children: bool = True) -> Identity:
-        """Return what a document describes, its appearance checked as well.
+        """Return what a document describes.
 
         Raises:
             InvalidError: names the field, what was expected and what was got.
         """
         try:
             identity = read_identity(document, self.space)
-            if identity.appearance:
-                Appearance.from_document(dict(identity.appearance))
             if not children:
                 require_adult(identity, self.space)
         except EmogenError as error:

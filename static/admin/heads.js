@@ -10,6 +10,7 @@ const own = document.querySelector("#own_look");
 let timer = 0;
 let asking = null;
 let shown = null;
+let painted = null;
 
 function ranges() {
   return form.querySelectorAll(".control > [name]");
@@ -60,6 +61,7 @@ async function draw() {
     const reply = await send("/admin/heads/preview", mine.signal);
     await show(await reply.blob());
     name(reply.headers.get("X-Head-Hash"));
+    if (!own.checked) wear(JSON.parse(reply.headers.get("X-Head-Look")), true);
     say(`Drawn in ${((performance.now() - begun) / 1000).toFixed(1)} s`);
   } catch (error) {
     if (mine.signal.aborted || error.newer) return;
@@ -102,6 +104,25 @@ function name(digest) {
   document.querySelector("#short").textContent = digest.slice(0, 12);
 }
 
+function look() {
+  return [...ranges()].filter((input) => input.name.startsWith("look."));
+}
+
+/** Set the fields of the look: to what the head wears, or back to what was painted. */
+function wear(values, anew = false) {
+  for (const input of look()) {
+    input.value = values[input.name];
+    if (anew) input.dataset.start = input.value;
+    tell(input);
+  }
+}
+
+/** A look of one's own is put away and taken out again; the head's own way shows in between. */
+function dress() {
+  if (!own.checked) painted = Object.fromEntries(look().map((input) => [input.name, input.value]));
+  else if (painted) wear(painted);
+}
+
 async function copy() {
   try {
     const reply = await send("/admin/heads/document");
@@ -126,6 +147,7 @@ form.addEventListener("input", (event) => {
   if (input.closest(".control")) tell(input.parentElement.querySelector("[name]"));
   // Whoever paints wants to see it.
   if (input.name?.startsWith("look.")) own.checked = true;
+  if (input === own) dress();
   tellShares();
   if (!["name", "children"].includes(input.name)) changed();
 });

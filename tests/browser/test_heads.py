@@ -53,6 +53,11 @@ def drawn(page):
     return page.locator("#portrait").get_attribute("src")
 
 
+def said(page, words):
+    page.locator("#status.wrong", has_text=words).wait_for(timeout=SECONDS)
+    return page.locator("#status").inner_text()
+
+
 def digest(page):
     return page.locator("#digest").inner_text()
 
@@ -101,11 +106,30 @@ def test_by_keyboard_alone(page):
     assert page.locator("#p-nose-width").is_visible()
 
 
+def test_the_look_follows_the_sliders_until_somebody_paints(page):
+    own, depth = page.locator("#own_look"), page.locator("#p-look-skin_depth")
+    young = depth.input_value()
+    assert not own.is_checked()
+    page.locator("#p-african").fill("1")
+    drawn(page)
+    assert float(depth.input_value()) > float(young)
+    assert not page.locator(".control", has=depth).locator(".reset").is_visible()
+    depth.fill("0.05")
+    assert own.is_checked(), "whoever paints wants to see it"
+    page.locator("#status", has_text="Drawing").wait_for(timeout=SECONDS)
+    drawn(page)
+    own.uncheck()
+    page.locator("#status", has_text="Drawing").wait_for(timeout=SECONDS)
+    drawn(page)
+    assert float(depth.input_value()) > float(young)
+    own.check()
+    assert depth.input_value() == "0.05", "what was painted is not lost"
+
+
 def test_colours_mix_and_amounts_are_told(page):
-    page.locator("#own_look").uncheck()
     page.locator("summary", has_text="Eyes, lashes").click()
     page.locator("#p-look-iris_colour").fill("#3060a0")
-    assert page.locator("#own_look").is_checked(), "whoever paints wants to see it"
+    assert page.locator("#own_look").is_checked()
     page.locator("#p-african").fill("1")
     page.locator("#p-asian").fill("1")
     page.locator("#p-caucasian").fill("0")
@@ -118,13 +142,18 @@ def test_colours_mix_and_amounts_are_told(page):
 
 
 def test_signed_out_and_offline_are_said(page):
+    portrait, fingerprint = page.locator("#portrait").get_attribute("src"), digest(page)
     page.context.set_offline(True)
     page.locator("#p-age").fill("31")
-    page.locator("#status.wrong", has_text="cannot be reached").wait_for(timeout=SECONDS)
+    assert said(page, "cannot be reached") == "The server cannot be reached. Change a slider to try again."
     page.context.set_offline(False)
     page.context.clear_cookies()
     page.locator("#p-age").fill("32")
-    page.locator("#status.wrong", has_text="signed out").wait_for(timeout=SECONDS)
+    assert said(page, "signed out") == "You are signed out, or this page is too old. Reload it."
+    assert page.get_by_role("status").filter(has_text="signed out").count() == 1, "read aloud as well"
+    assert (page.locator("#portrait").get_attribute("src"), digest(page)) == (portrait, fingerprint)
+    assert page.locator("#p-age").input_value() == "32", "nothing typed is lost"
+    assert not page.locator("#editor.busy").count()
 
 
 @pytest.mark.parametrize("width", [1440, 390])

@@ -73,8 +73,22 @@ def test_a_preview_has_the_hash_of_its_document(owner, form):  # noqa: F811
     document = reply.json()
     assert document["hash"] == drawn.headers["x-head-hash"]
     assert document["head"]["details"] == {"nose-width": -0.25}
-    assert document["appearance"]["skin_depth"] == float(form["look.skin_depth"])
+    assert document["appearance"] == {}
     assert identity_hash(read_identity(document, SPACE), SPACE) == document["hash"]
+
+
+def test_a_preview_tells_the_look_that_the_head_wears(owner, form):  # noqa: F811
+    young, old = (
+        json.loads(owner.post(f"{PAGE}/preview", data=form | {"age": age}).headers["x-head-look"])
+        for age in ("25", "85")
+    )
+    assert young == {name: value for name, value in form.items() if name.startswith("look.")}
+    assert float(old["look.grey"]) > float(young["look.grey"])
+    painted = form | {"own_look": "1", "look.iris_colour": "#102030", "age": "85"}
+    own = json.loads(owner.post(f"{PAGE}/preview", data=painted).headers["x-head-look"])
+    assert own == young | {"look.iris_colour": "#102030"}
+    document = owner.post(f"{PAGE}/document", data=painted).json()
+    assert document["appearance"]["iris_colour"] == [16, 32, 48]
 
 
 def test_the_hash_on_the_page_is_that_of_its_form(owner):  # noqa: F811
@@ -97,7 +111,7 @@ def test_without_script_the_page_comes_back_with_the_portrait(owner, form):  # n
     [
         ({"age": "200"}, "age: expected a number in [10, 90], got 200"),
         ({"age": "old"}, "age: expected a number"),
-        ({"look.iris_colour": "red"}, "a colour"),
+        ({"look.iris_colour": "red", "own_look": "1"}, "a colour"),
         ({"emotion": "bored"}, "no such emotion"),
         ({"name": "x" * 81}, "80 printable characters"),
     ],

@@ -10,6 +10,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from emogen_core.face.appearance import Appearance, mixed
+from emogen_core.face.space import DEFAULT_MIX
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -46,8 +47,6 @@ _YOUNG: Mapping[str, Appearance] = {
         brow_density=0.62, brow_thickness=0.60, brow_arch=0.30, stubble=0.45, lashes=0.4, teeth=0.22,
     ),
 }  # fmt: skip
-# The shares that the rig's default heads are blended from.
-_MIX = {"caucasian": 0.5, "asian": 0.3, "african": 0.2}
 
 
 def presets() -> Mapping[str, Appearance]:
@@ -62,7 +61,7 @@ def presets() -> Mapping[str, Appearance]:
 
 def _default(sex: str) -> Appearance:
     """Return the blend of the three young heads; curls of a fifth would look like none, so hair is the first's."""
-    blend = mixed((_YOUNG[f"{ancestry}-{sex}"], share) for ancestry, share in _MIX.items())
+    blend = mixed((_YOUNG[f"{ancestry}-{sex}"], share) for ancestry, share in DEFAULT_MIX.items())
     brown = (96, 84, 58) if sex == "male" else (98, 84, 60)
     hair = (84, 58, 41) if sex == "female" else (66, 48, 36)
     return replace(blend, iris_colour=brown, hair_colour=hair, hair_curl=0.0, freckles=0.2 * (sex == "female"))

@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from emogen_core.errors import IdentityError
+from emogen_core.face.appearance import Appearance
 from emogen_core.face.identity import (
     Identity,
     identity_document,
@@ -23,7 +24,8 @@ from emogen_core.face.identity import (
 from emogen_core.face.space_file import load_bundled_space
 
 SPACE = load_bundled_space()
-SOME = Identity("Someone", {"sex": 0.25, "age": 40, "nose-width": 0.4, "chin-width": 0.0}, {"skin": {"depth": 0.5}})
+LOOK = Appearance(skin_depth=0.5, iris_colour=(1, 2, 3)).to_document()
+SOME = Identity("Someone", {"sex": 0.25, "age": 40, "nose-width": 0.4, "chin-width": 0.0}, LOOK)
 
 
 def document(**changes):
@@ -62,10 +64,21 @@ def test_every_value_and_the_space_are_part_of_the_hash():
         replace(SOME, name="Another"),
         replace(SOME, head={**SOME.head, "nose-width": 0.4001}),
         replace(SOME, appearance={}),
+        replace(SOME, appearance={**LOOK, "skin_depth": 0.5001}),
     ]
     digests = {identity_hash(other, SPACE) for other in (SOME, *others)}
     digests.add(identity_hash(SOME, replace(SPACE, hash="0" * 64)))
-    assert len(digests) == 5
+    assert len(digests) == 6
+
+
+@pytest.mark.parametrize(
+    "same", [{"skin_depth": 0.5 + 1e-9}, {"grey": 0}, {"iris_colour": (1, 2, 3)}, dict(reversed(LOOK.items()))]
+)
+def test_an_appearance_has_one_form_as_well(same):
+    other = {**same, **{name: value for name, value in LOOK.items() if name not in same}}
+    assert identity_hash(replace(SOME, appearance=other), SPACE) == identity_hash(SOME, SPACE)
+    read = read_identity(document(appearance=other), SPACE)
+    assert read.appearance == LOOK
 
 
 @pytest.mark.parametrize(
@@ -89,8 +102,10 @@ def test_every_value_and_the_space_are_part_of_the_hash():
         (with_head(ancestry={"african": 1.0, "martian": 0.0}), "ancestry: expected fields among"),
         (with_head(age=9.0), "age: expected a number in"),
         (document(appearance=[]), "appearance: expected an object"),
-        (document(appearance={"a": float("inf")}), "appearance: expected plain JSON"),
-        (document(appearance={"a": "x" * 20000}), "appearance: expected at most"),
+        (document(appearance={"skin_depth": 0.5}), "appearance: expected no missing field, got .*grey"),
+        (document(appearance={**LOOK, "hat": 1}), r"appearance: expected no unknown field, got \['hat'\]"),
+        (document(appearance={**LOOK, "grey": float("nan")}), r"appearance\.grey: expected .* from 0 to 1, got nan"),
+        (document(appearance={**LOOK, "lip_colour": "red"}), r"appearance\.lip_colour: expected three whole numbers"),
         (document(hash="0" * 64), "hash: expected"),
         (document(space="0" * 64), "space: expected"),
     ],

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from emogen_core.errors import IdentityError
+from emogen_core.face.appearance import Appearance
 from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.face.identity import Identity, read_identity, signed_document, worn_as
 from emogen_core.face.space_file import load_bundled_space
+from emogen_core.rigs.default_look import default_appearance
+from emogen_core.rigs.identities import preset
 from emogen_core.rigs.wear import fit_head, wear, worn_name
 
 RIG, SPACE = load_bundled_rig(), load_bundled_space()
@@ -34,9 +39,28 @@ def test_a_head_at_rest_has_the_same_neutral_and_another_name(head):
     assert (still.name, still.adjustment) == (f"{head.name}-still", None)
 
 
-def test_it_borrows_from_the_nearest_preset(head):
+def test_it_borrows_light_from_the_nearest_preset_and_wears_the_look_of_its_years(head):
     assert head.like == "male"
-    assert head.style == "male"
+    assert Appearance.from_document(dict(head.appearance)) == default_appearance(SOME.head, SPACE)
+    still = fit_head(RIG, SPACE, SOME, moving=False)
+    assert (still.style, still.like) == (head.style, head.like)
+
+
+@pytest.mark.parametrize("name", ["female", "asian-male-old"])
+def test_a_preset_wears_the_style_that_its_look_file_holds(name):
+    assert fit_head(RIG, SPACE, preset(name), moving=False).style == name
+
+
+def test_an_appearance_in_the_document_wins():
+    own = Appearance(skin_depth=0.9).to_document()
+    dressed = fit_head(RIG, SPACE, replace(SOME, appearance=own), moving=False)
+    assert dressed.appearance == own
+
+
+def test_heads_of_one_look_share_its_textures():
+    wide = replace(SOME, head={**SOME.head, "nose-width": 1.0})
+    styles = {fit_head(RIG, SPACE, identity, moving=False).style for identity in (SOME, wide)}
+    assert len(styles) == 1
 
 
 def test_a_signed_document_reads_back_under_the_same_name():

@@ -8,6 +8,7 @@ import time
 import pytest
 
 from emogen_core.face.identity import Identity
+from emogen_core.rigs.identities import preset
 from emogen_core.rigs.look.presets import presets
 from server.services.errors import ConflictError, InvalidError, NotFoundError
 from server.services.heads import NEUTRAL
@@ -18,11 +19,11 @@ def head(name="Somebody", **values):
     return Identity(name, {"age": 40.0, **values})
 
 
-def test_presets_start_with_their_look_written_out(house):
+def test_presets_start_with_the_look_that_follows_their_sliders(house):
     assert house.heads.presets == ("female", "male")
     identity = house.heads.start("male")
-    for field, value in presets()["male"].to_document().items():
-        assert identity.appearance[field] == pytest.approx(value, abs=1e-4)
+    assert identity == preset("male")
+    assert house.heads.appearance(identity) == presets()["male"]
     for name in ("custom-123", "african-male-old"):
         with pytest.raises(NotFoundError):
             house.heads.start(name)
