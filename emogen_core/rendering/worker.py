@@ -3,12 +3,14 @@
 It speaks over one inherited socket: first ("ready", (rig hash, look hash)) or ("failed", kind, sentence). Then it is
 told ("draw", identity, (B, K) weights, settings), ("wear", `WornHead`) or ("drop", name of a head), and answers
 ("done", [PNG, ...]), ("done", None) or ("failed", kind, sentence). Which heads it keeps is for the pool to say. It
-ends when the socket closes, so it never outlives its pool.
+ends when the socket closes, so it never outlives its pool, and after a bug, which leaves its GL state in doubt: the
+pool is told the sentence, the log has the traceback, and another process takes its place.
 """
 
 from __future__ import annotations
 
 import sys
+from contextlib import contextmanager, suppress
 from importlib import import_module
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -22,19 +24,31 @@ from emogen_core.rendering.protocol import RenderSettings
 from emogen_core.rendering.setup import load_dressed, renderer_for
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from emogen_core.rendering.protocol import Renderer
 
 
 def main(arguments: list[str]) -> None:
     """Serve one pool until its end of the socket closes."""
     socket = Connection(int(arguments[0]))
-    try:
+    # A pool that has gone needs no answer.
+    with suppress(BrokenPipeError), _telling(socket):
         renderer, hashes = _start(*arguments[1:])
+        socket.send(("ready", hashes))
+        _serve(socket, renderer)
+
+
+@contextmanager
+def _telling(socket: Connection) -> Iterator[None]:
+    """Tell the pool what ends this process."""
+    try:
+        yield
+    except EmogenError as error:
+        socket.send(_failure(error))
     except Exception as error:
         socket.send(_failure(error))
-        return
-    socket.send(("ready", hashes))
-    _serve(socket, renderer)
+        raise
 
 
 def _start(backend: str, rig: str, look: str) -> tuple[Renderer, tuple[str, str]]:
@@ -56,7 +70,7 @@ def _serve(socket: Connection, renderer: Renderer) -> None:
             return
         try:
             answer: tuple[Any, ...] = ("done", _obey(renderer, *order))
-        except Exception as error:
+        except EmogenError as error:
             answer = _failure(error)
         socket.send(answer)
 

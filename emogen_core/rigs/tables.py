@@ -31,16 +31,7 @@ def filled(page: str, rig: Rig) -> str:
     Raises:
         InvalidInputError: the page asks for a table that does not exist.
     """
-
-    def table(place: re.Match[str]) -> str:
-        name = place["name"]
-        if name.startswith("emotion ") and name.removeprefix("emotion ") in rig.emotion_sets:
-            return f"<!-- {name} -->\n{emotion_table(rig, name.removeprefix('emotion '))}\n<!-- end -->"
-        if name not in TABLES:
-            raise InvalidInputError(f"table: {expected(f'one of {sorted(TABLES)} or an emotion', name)}")
-        return f"<!-- {name} -->\n{TABLES[name](rig)}\n<!-- end -->"
-
-    return _PLACE.sub(table, page)
+    return _PLACE.sub(lambda place: f"<!-- {place['name']} -->\n{_named(place['name'], rig)}\n<!-- end -->", page)
 
 
 def main(pages: Sequence[str]) -> None:
@@ -103,6 +94,15 @@ TABLES: Mapping[str, Callable[[Rig], str]] = {
     "emotion sets": set_table,
     "correctives": corrective_table,
 }
+
+
+def _named(name: str, rig: Rig) -> str:
+    emotion = name.removeprefix("emotion ")
+    if emotion != name and emotion in rig.emotion_sets:
+        return emotion_table(rig, emotion)
+    if name not in TABLES:
+        raise InvalidInputError(f"table: {expected(f'one of {sorted(TABLES)} or an emotion', name)}")
+    return TABLES[name](rig)
 
 
 def _table(head: Iterable[object], rows: Iterable[Iterable[object]]) -> str:

@@ -6,7 +6,6 @@ one instead of drawing twice. Bytes go to memory and to a file; a file that cann
 
 from __future__ import annotations
 
-import logging
 import threading
 from collections import OrderedDict
 from concurrent.futures import CancelledError, Future, ThreadPoolExecutor
@@ -16,6 +15,7 @@ from typing import TYPE_CHECKING, Protocol
 from emogen_core.errors import EmogenError
 
 from ..store import runs
+from .background import watched
 from .errors import NotFoundError, UnavailableError
 from .evolution import Sketch, settings_of, unpack_weights
 from .journal import config_of
@@ -33,8 +33,6 @@ if TYPE_CHECKING:
     from .portrait_files import PortraitFiles
     from .steps import Walk
     from .wardrobe import Wardrobe
-
-logger = logging.getLogger(__name__)
 
 URGENT = 0
 AHEAD = 1
@@ -128,7 +126,8 @@ class Portraits:
 
     def after(self, offered: Sequence[tuple[str, Sketch]], following: Callable[[], list[Sketch]]) -> None:
         """Draw the faces that were just offered, and then those that may follow."""
-        self._background.submit(self._guarded, lambda: self._draw(offered, following))
+        # This only saves time: whatever fails here is drawn, or refused aloud, when it is asked for.
+        watched(self._background.submit(self._draw, offered, following), "drawing ahead failed")
 
     def following(self, walk: Walk) -> Callable[[], list[Sketch]]:
         """Return what to draw ahead once the faces on the screen are drawn."""
@@ -161,15 +160,6 @@ class Portraits:
             key = self.key(sketch.identity, sketch.weights, sketch.settings)
             if not self._has(key):
                 self._want(key, sketch, AHEAD)
-
-    def _guarded(self, work: Callable[[], None]) -> None:
-        try:
-            work()
-        except UnavailableError as error:
-            logger.info("not drawn ahead: %s", error)
-        except Exception:
-            # Drawing ahead only saves time: whatever fails here is drawn, or refused aloud, when it is asked for.
-            logger.exception("drawing ahead failed")
 
     def _has(self, key: str) -> bool:
         return self._memory.get(key) is not None or self._files.has(key)

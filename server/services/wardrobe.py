@@ -7,7 +7,6 @@ at once for whoever waits for a head that is not ready. `rig` and `head` never w
 
 from __future__ import annotations
 
-import logging
 import re
 import threading
 from collections import OrderedDict
@@ -20,6 +19,7 @@ from emogen_core.errors import EmogenError, IdentityError
 from emogen_core.face.identity import read_identity, require_adult, signed_document
 from emogen_core.rendering.worn import WornHead, worn_rig
 
+from .background import watched
 from .errors import ConflictError, InvalidError, UnavailableError
 
 if TYPE_CHECKING:
@@ -30,8 +30,6 @@ if TYPE_CHECKING:
     from emogen_core.face.space import IdentitySpace
 
     from .config import StudyConfig
-
-logger = logging.getLogger(__name__)
 
 LIMIT = 24
 """Heads that one process keeps, some 6 MB each; a study has at most 20."""
@@ -125,7 +123,7 @@ class Wardrobe:
         """Have the heads of a study fitted in the background."""
         self.know(config)
         for name in config.documents:
-            self._ahead.submit(self._quietly, name)
+            watched(self._ahead.submit(self._fit_ahead, name), "a head could not be fitted ahead")
 
     def wait(self, identity: str) -> None:
         """Return when a head can be worn: at once for the rig's own, else fitted here and now if need be.
@@ -200,16 +198,13 @@ class Wardrobe:
                 return
             peg.rig, peg.head = worn_rig(self._rig, head), head
 
-    def _quietly(self, name: str) -> None:
+    def _fit_ahead(self, name: str) -> None:
         peg = self._peg(name)
         while peg is not None and not peg.done and not self._closed:
             try:
                 self._fit(peg)
             except UnavailableError:
                 continue
-            except Exception:
-                logger.exception("a head could not be fitted ahead")
-                return
 
 
 @contextmanager

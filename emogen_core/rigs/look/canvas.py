@@ -122,6 +122,7 @@ def make_canvas(geometry: HeadGeometry, atlas: Atlas, size: int) -> Canvas:
     normal = NormalField(geometry.triangles, len(place))(place)
 
     def blend(values: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Return (M, c) at the texels of (R, c) values at the layer's vertices, linear over every triangle."""
         return np.asarray(np.einsum("mk,mkc->mc", weights, values[corners]), np.float32)
 
     spread = blend(normal[layer.source])

@@ -107,6 +107,26 @@ def test_a_bug_in_the_renderer_is_a_rendering_error(pool):
         pool.submit("bug", alpha(0), SIZE).result(10)
 
 
+def test_a_process_with_a_bug_is_replaced_and_its_traceback_is_told(capfd):
+    with RenderPool(1, "fake_backend:make") as pool:
+        (before,) = pool.process_ids
+        with pytest.raises(RenderingError, match="a bug"):
+            pool.submit("bug", alpha(0), SIZE).result(10)
+        assert shade(pool.submit("head", alpha(1), SIZE).result(20)) == 1
+        assert pool.process_ids != [before]
+    told = capfd.readouterr().err
+    assert "Traceback" in told and 'raise ZeroDivisionError("a bug")' in told
+
+
+def test_a_refusal_is_no_bug_and_keeps_the_process(capfd):
+    with RenderPool(1, "fake_backend:make") as pool:
+        before = pool.process_ids
+        with pytest.raises(InvalidInputError):
+            pool.submit("head", alpha(2), SIZE).result(10)
+        assert pool.process_ids == before
+    assert "Traceback" not in capfd.readouterr().err
+
+
 def test_closing_does_not_wait_for_a_worker_and_fails_what_is_left():
     pool = RenderPool(1, "fake_backend:make")
     futures = [pool.submit("hang", alpha(0), SIZE) for _ in range(5)]
