@@ -110,14 +110,30 @@ def read_identity(document: object, space: IdentitySpace) -> Identity:
 def load_identity(path: Path, space: IdentitySpace) -> Identity:
     """Read an identity from a JSON file; raises as `read_identity`, also when the file cannot be read."""
     try:
-        if path.stat().st_size > DOCUMENT_BYTES:
-            _refuse(path.name, f"at most {DOCUMENT_BYTES} bytes", path.stat().st_size)
-        document = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=_once)
-    except (OSError, ValueError, RecursionError) as error:
+        with path.open("rb") as file:
+            content = file.read(DOCUMENT_BYTES + 1)
+    except OSError as error:
+        raise IdentityError(f"{path.name}: expected a readable file, got {error}") from error
+    return read_identity(parsed_document(content), space)
+
+
+def parsed_document(content: bytes) -> object:
+    """Return the JSON of a file that should hold an identity; what it says is for `read_identity` to judge.
+
+    Args:
+        content: the file, or a little more of it than `DOCUMENT_BYTES`.
+
+    Raises:
+        IdentityError: too large, no JSON in UTF-8, or an object names a field twice.
+    """
+    if len(content) > DOCUMENT_BYTES:
+        _refuse("identity", f"a file of at most {DOCUMENT_BYTES} bytes", "more")
+    try:
+        return json.loads(content.decode(), object_pairs_hook=_once)
+    except (ValueError, RecursionError) as error:
         if isinstance(error, IdentityError):
             raise
-        raise IdentityError(f"{path.name}: expected a readable JSON document, got {error}") from error
-    return read_identity(document, space)
+        raise IdentityError(f"identity: expected a JSON document, got {error}") from error
 
 
 def save_identity(identity: Identity, path: Path, space: IdentitySpace) -> str:

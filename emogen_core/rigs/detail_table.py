@@ -23,6 +23,10 @@ class Detail:
         """Return the slider with so much of its targets at the end of its range."""
         return replace(self, scale=scale)
 
+    def targets(self, sign: str) -> tuple[str, ...]:
+        """Return the targets of one direction, ``"+"`` or ``"-"``."""
+        return self.plus if sign == "+" else self.minus
+
     @property
     def low(self) -> float:
         """Least value: -1, or 0 for a slider with one direction."""

@@ -39,6 +39,8 @@ _DESCRIPTION = {
     "weight": Parameter("weight", "macro", -1.0, 1.0, 0.0, "lean to heavy"),
     "muscle": Parameter("muscle", "macro", -1.0, 1.0, 0.0, "slack to strong"),
 }
+# The source's targets of weight leave the face as it is; these shares of details make it lean or heavy as well.
+_FACE = {"weight": {"head-fat": 0.6, "neck-fullness": 0.4}}
 # What moves less than this, millimetres, is not stored.
 _SEEN = 0.02
 
@@ -101,26 +103,29 @@ class _Baker:
                     for sign, word in (("-", "min"), ("+", "max")):
                         levels = dict.fromkeys(BODY, "average") | {body: word}
                         name = f"universal-{sex}-{age}-{levels['muscle']}muscle-{levels['weight']}weight"
-                        found[f"{sex}-{age}-{body}{sign}"] = self._target(self._macro(name) - plain)
+                        face = self._face(body, sign)
+                        found[f"{sex}-{age}-{body}{sign}"] = self._target(self._macro(name) - plain + face)
         return found
 
     def details(self) -> dict[str, Target]:
         """Return every detail's two ends."""
         found = {}
         for detail in DETAILS:
-            for sign, names in (("+", detail.plus), ("-", detail.minus)):
-                if names:
-                    found[f"{detail.name}{sign}"] = self._target(self._detail(detail, names))
+            for sign in "+-":
+                if detail.targets(sign):
+                    found[f"{detail.name}{sign}"] = self._target(self._detail(detail, sign))
         return found
+
+    def _face(self, body: str, sign: str) -> NDArray[np.float64] | float:
+        shares = _FACE.get(body, {})
+        return sum(shares[detail.name] * self._detail(detail, sign) for detail in DETAILS if detail.name in shares)
 
     def _macro(self, name: str) -> NDArray[np.float64]:
         return self._source.target(f"{_TARGETS}/macrodetails/{name}.target.gz")
 
-    def _detail(self, detail: Detail, names: tuple[str, ...]) -> NDArray[np.float64]:
-        return detail.scale * sum(
-            (self._source.target(f"{_TARGETS}/{name}.target.gz") for name in names[1:]),
-            self._source.target(f"{_TARGETS}/{names[0]}.target.gz"),
-        )
+    def _detail(self, detail: Detail, sign: str) -> NDArray[np.float64]:
+        targets = [self._source.target(f"{_TARGETS}/{name}.target.gz") for name in detail.targets(sign)]
+        return np.asarray(detail.scale * np.sum(targets, axis=0), np.float64)
 
     def _target(self, offsets: NDArray[np.float64]) -> Target:
         rows = self.rows(offsets * MILLIMETRES)

@@ -11,8 +11,9 @@ from emogen_core.rendering.setup import make_renderer
 from emogen_core.rigs.collision_sheet import collision_sheet
 from emogen_core.rigs.combination_sheet import combination_sheet
 from emogen_core.rigs.contact import FACE, PORTRAIT, QUALITY, Frame, Tile, contact_sheet
+from emogen_core.rigs.head_sheet import head_sheet
 from emogen_core.rigs.look.sheet import appearance_sheet
-from emogen_core.rigs.random_faces import active_genes
+from emogen_core.rigs.random_faces import random_genes
 from emogen_core.rigs.wrinkle_sheet import wrinkle_sheet
 
 if TYPE_CHECKING:
@@ -27,8 +28,7 @@ if TYPE_CHECKING:
     Sheet = Callable[[Renderer, Rig], Image.Image]
 
 RANDOM_FACES = 20
-# As the search's random faces: so many genes of the enabled ones, each uniform in [0, 1].
-RANDOM_GENES = 6
+_SEED = 2021
 # Heads that differ in everything the grid of presets has.
 FOUR = ("female", "male", "asian-female-old", "african-male-young")
 _LARGE = Frame(300, FACE.part)
@@ -93,6 +93,7 @@ def random_sheet(renderer: Renderer, rig: Rig) -> Image.Image:
 SHEETS: dict[str, Sheet] = {
     "genes": genes_sheet,
     "identities": identities_sheet,
+    "heads": head_sheet,
     "appearance": appearance_sheet,
     "emotions": emotions_sheet,
     "emotions-all": all_emotions_sheet,
@@ -118,11 +119,7 @@ def _emotions(rig: Rig, heads: Sequence[str]) -> Iterator[Tile]:
 
 
 def _random(rig: Rig) -> Iterator[Tile]:
-    rng = np.random.default_rng(2021)
     # Where the eyes look tells little about a face, and a row of squints hides what the rest does.
-    enabled = [i for i in active_genes(rig) if "gaze" not in rig.genes[i].flags]
-    for number in range(RANDOM_FACES):
-        genes = np.zeros(len(rig.genes))
-        genes[rng.choice(enabled, RANDOM_GENES, replace=False)] = rng.random(RANDOM_GENES)
+    for number, genes in enumerate(random_genes(rig, RANDOM_FACES, _SEED, without={"gaze"})):
         identity = rig.identities[number % len(rig.identities)]
         yield Tile(identity, f"{number + 1} {identity}", genes)

@@ -115,16 +115,10 @@ def draw(name: Name, out: Out, width: Width = 400, height: Height = 480, backend
 
 def portrait(identity: Identity, space: IdentitySpace, width: int, height: int, backend: str) -> bytes:
     """Return the PNG of an identity's neutral, in its own appearance or the one of its sex, age and ancestry."""
-    wearing, setup = import_module("emogen_core.rigs.wear"), import_module("emogen_core.rendering.setup")
-    pipeline = import_module("emogen_core.correctives.pipeline")
+    drawing, setup = import_module("emogen_core.rigs.head_portrait"), import_module("emogen_core.rendering.setup")
     settings = import_module("emogen_core.rendering.protocol").RenderSettings(width, height)
-    plain = load_bundled_rig()
-    head = wearing.fit_head(plain, space, identity, moving=False)
-    rig = import_module("emogen_core.rendering.worn").worn_rig(plain, head)
-    renderer = setup.renderer_for(backend, plain, setup.look_for(plain))
-    renderer.wear(head)
-    weights = pipeline.face_weights(rig, head.name, import_module("numpy").zeros((1, len(rig.genes)))).weights
-    pixels = renderer.draw(head.name, weights, settings)[0]
+    renderer, rig = setup.make_renderer(backend)
+    pixels = drawing.draw_head(renderer, rig, space, identity, settings)
     renderer.close()
     encoded: bytes = import_module("emogen_core.rendering.png").encode_png(pixels)
     return encoded

@@ -19,7 +19,7 @@ from starlette.responses import JSONResponse, RedirectResponse, Response
 from emogen_core.face.identity import DOCUMENT_BYTES
 
 from ..services import head_form
-from ..services.errors import InvalidError, ServiceError
+from ..services.errors import ServiceError
 from ..services.heads import NEUTRAL
 from .access import Services
 from .desk import Form, Me, OwnForm, check_csrf, page
@@ -97,7 +97,7 @@ async def upload(request: Request, me: Me, house: Services) -> Response:
         file = form.get("file")
         content = await file.read(DOCUMENT_BYTES + 1) if isinstance(file, UploadFile) else b""
     try:
-        identity = await run(house.heads.read, _json(content))
+        identity = await run(house.heads.read_file, content)
         promise = await run(house.heads.preview, identity, NEUTRAL, me.user)
         picture = await within(promise, house.settings.portrait_wait_seconds)
     except ServiceError as error:
@@ -141,20 +141,14 @@ def _emotion(form: Form) -> str:
     return form.get("emotion", NEUTRAL)
 
 
-def _json(content: bytes) -> object:
-    if len(content) > DOCUMENT_BYTES:
-        raise InvalidError("The file is too large.", field="file", expected=f"at most {DOCUMENT_BYTES} bytes")
-    try:
-        return json.loads(content)
-    except (ValueError, RecursionError) as error:
-        raise InvalidError("The file is not a JSON document.", field="file", expected="a head's document") from error
-
-
 def _refused(me: SignedIn, form: Form, house: House, error: ServiceError) -> Response:
     """Show the editor again with what was wrong; what was typed stays where it can be shown."""
     start = house.heads.start(FIRST if FIRST in house.heads.presets else house.heads.presets[0])
     picture = f"/admin/heads/portraits/{start.name}.png?large=1"
-    return _page(me, house, start, status_of(error), picture=picture, typed=form, problem=error.message)
+    return _page(
+        me, house, start, status_of(error),
+        picture=picture, emotion=_emotion(form), typed=form, problem=error.message,
+    )  # fmt: skip
 
 
 def _page(  # noqa: PLR0913 - what the page shows
@@ -173,7 +167,7 @@ def _page(  # noqa: PLR0913 - what the page shows
     own = bool(typed.get(head_form.OWN_LOOK)) if typed else bool(identity.appearance)
     return page(
         "heads", status, me=me, section="heads", presets=desk.presets, emotions=desk.emotions, emotion=emotion,
-        head=identity, digest=desk.signed(identity)["hash"], picture=picture, start=start, typed=typed, own=own,
-        shape=head_form.groups(identity, desk.space), looks=head_form.looks(desk.appearance(identity)),
-        problem=problem,
+        head=identity, digest="" if typed else desk.signed(identity)["hash"],
+        picture=picture, start=start, typed=typed, own=own, shape=head_form.groups(identity, desk.space),
+        looks=head_form.looks(desk.appearance(identity)), problem=problem,
     )  # fmt: skip

@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from emogen_core.correctives.pipeline import face_weights
-from emogen_core.face.identity import signed_document
+from emogen_core.errors import IdentityError
+from emogen_core.face.identity import parsed_document, signed_document
 from emogen_core.rendering.protocol import RenderSettings
 from emogen_core.rendering.worn import WornHead, worn_rig
 from emogen_core.rigs.default_look import appearance_of
@@ -24,6 +25,7 @@ from emogen_core.rigs.identities import IDENTITIES, preset
 from .config import DEMO
 from .errors import ConflictError, InvalidError, NotFoundError
 from .evolution import Sketch
+from .wardrobe import refusal
 
 if TYPE_CHECKING:
     from concurrent.futures import Future
@@ -81,6 +83,14 @@ class Heads:
     def read(self, document: object) -> Identity:
         """Return what a document describes; raises `InvalidError`, as a study would."""
         return self.journal.wardrobe.read(document)
+
+    def read_file(self, content: bytes) -> Identity:
+        """Return what the document in a file describes; raises as `read`, also when the file is none."""
+        try:
+            document = parsed_document(content)
+        except IdentityError as error:
+            raise refusal("file", error) from error
+        return self.read(document)
 
     def signed(self, identity: Identity) -> dict[str, Any]:
         """Return the canonical document of an identity with its hashes."""

@@ -21,6 +21,11 @@ function rounded(value) {
   return Math.round(value * 100) / 100;
 }
 
+/** Whether what is typed beside a slider is a number that the slider can stand at. */
+function fits(typed) {
+  return typed.value !== "" && typed.validity.valid;
+}
+
 function field(input) {
   return input.parentElement.querySelector(".typed");
 }
@@ -28,7 +33,10 @@ function field(input) {
 /** Show a control's number, and the way back where it was changed. */
 function tell(input) {
   const typed = field(input);
-  if (typed && typed !== document.activeElement) typed.value = rounded(input.value);
+  if (typed && typed !== document.activeElement) {
+    typed.value = rounded(input.value);
+    typed.removeAttribute("aria-invalid");
+  }
   input.parentElement.querySelector(".reset").hidden = input.value === input.dataset.start;
 }
 
@@ -136,7 +144,8 @@ async function copy() {
 form.addEventListener("input", (event) => {
   const input = event.target;
   if (input.classList.contains("typed")) {
-    if (input.value === "" || !input.validity.valid) return;
+    if (!fits(input)) return;
+    input.removeAttribute("aria-invalid");
     const slider = input.parentElement.querySelector("[name]");
     slider.value = input.value;
     tell(slider);
@@ -152,6 +161,16 @@ form.addEventListener("input", (event) => {
   if (!["name", "children"].includes(input.name)) changed();
 });
 
+form.addEventListener("change", (event) => {
+  const input = event.target;
+  if (input.classList.contains("typed") && !fits(input)) {
+    input.setAttribute("aria-invalid", "true");
+    say(`${input.getAttribute("aria-label")}: expected ${input.min} to ${input.max}.`, true);
+  }
+  // The name is not in the picture, but it is in the hash; nobody waits for that at every letter.
+  if (input.name === "name") changed();
+});
+
 form.addEventListener("click", (event) => {
   const reset = event.target.closest(".reset");
   if (!reset) return;
@@ -163,7 +182,9 @@ form.addEventListener("click", (event) => {
   changed();
 });
 
-document.querySelector("#preview").addEventListener("click", (event) => {
+form.addEventListener("submit", (event) => {
+  // Enter in any field asks for the first button, which previews.
+  if (event.submitter?.hasAttribute("formaction")) return;
   event.preventDefault();
   clearTimeout(timer);
   asking?.abort();

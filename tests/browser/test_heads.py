@@ -126,6 +126,34 @@ def test_the_look_follows_the_sliders_until_somebody_paints(page):
     assert depth.input_value() == "0.05", "what was painted is not lost"
 
 
+def test_enter_previews_and_a_name_is_in_the_fingerprint(page):
+    downloads, before = [], digest(page)
+    page.on("download", downloads.append)
+    page.locator("#name").fill("Somebody else")
+    page.keyboard.press("Enter")
+    drawn(page)
+    assert downloads == [] and page.url.endswith("/admin/heads")
+    after = digest(page)
+    assert after != before
+    page.locator("#name").fill("A third")
+    page.keyboard.press("Tab")
+    page.locator("#status", has_text="Drawing").wait_for(timeout=SECONDS)
+    drawn(page)
+    assert digest(page) not in {before, after}
+
+
+def test_a_number_that_does_not_fit_is_said(page):
+    control = page.locator(".control", has=page.locator("#p-age"))
+    control.locator(".typed").fill("95")
+    page.keyboard.press("Tab")
+    assert said(page, "Age") == "Age, number: expected 10 to 90."
+    assert control.locator(".typed").get_attribute("aria-invalid") == "true"
+    assert page.locator("#p-age").input_value() == "25"
+    control.locator(".typed").fill("60")
+    assert control.locator(".typed").get_attribute("aria-invalid") is None
+    assert page.locator("#p-age").input_value() == "60"
+
+
 def test_colours_mix_and_amounts_are_told(page):
     page.locator("summary", has_text="Eyes, lashes").click()
     page.locator("#p-look-iris_colour").fill("#3060a0")

@@ -140,11 +140,20 @@ def test_a_document_goes_out_and_comes_back_in(owner, form):  # noqa: F811
     assert owner.post(f"{PAGE}/document", data=again).json() == json.loads(text)
 
 
-@pytest.mark.parametrize("content", [b"", b"{", b"[1]", b"\xff\xfe", b"[" * 40_000, b" " * 65_537, b'{"name": 1}'])
+@pytest.mark.parametrize(
+    "content", [b"", b"{", b"[1]", b"\xff\xfe", b"[" * 40_000, b" " * 65_537, b'{"name": 1}', b'{"a": 1, "a": 1}']
+)
 def test_other_files_are_refused(owner, form, content):  # noqa: F811
     reply = owner.post(f"{PAGE}/upload", data={"csrf": form["csrf"]}, files={"file": ("a.json", content)})
     assert reply.status_code == 422
     assert 'role="alert"' in reply.text
+
+
+def test_a_refused_form_claims_no_fingerprint_and_keeps_the_expression(owner, form):  # noqa: F811
+    page = owner.post(PAGE, data=form | {"age": "200", "emotion": "sad"})
+    assert page.status_code == 422
+    assert 'id="digest">not known<' in page.text
+    assert fields(page.text)["emotion"] == "sad"
 
 
 def test_an_upload_without_a_file_and_a_body_too_large(owner, form):  # noqa: F811

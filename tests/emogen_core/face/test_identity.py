@@ -119,8 +119,11 @@ def test_a_file_that_is_no_json_or_names_a_field_twice_is_refused(tmp_path):
     path = tmp_path / "a.json"
     for text in ("{", "[" * 100000, '{"format": 1, "format": 1}', json.dumps(document()) + " " * 70000):
         path.write_text(text)
-        with pytest.raises(IdentityError, match="expected"):
+        with pytest.raises(IdentityError, match=r"^identity: expected"):
             load_identity(path, SPACE)
+    path.write_bytes(b"\xff\xfe")
+    with pytest.raises(IdentityError, match="expected a JSON document"):
+        load_identity(path, SPACE)
     with pytest.raises(IdentityError, match=r"none\.json"):
         load_identity(tmp_path / "none.json", SPACE)
 

@@ -9,19 +9,11 @@ import pytest
 
 from emogen_core.errors import InvalidInputError, RigFileError
 from emogen_core.face.bundled import load_bundled_rig
-from emogen_core.face.space import AGES, ANCESTRIES, age_shares, fit_sphere, topology_hash
+from emogen_core.face.space import AGES, age_shares, fit_sphere, topology_hash
 from emogen_core.face.space_file import BUNDLED_SPACE, load_bundled_space, load_space, save_space
+from emogen_core.rigs.random_heads import random_head
 
 RIG, SPACE = load_bundled_rig(), load_bundled_space()
-
-
-def random_point(rng, spread=0.4):
-    point = {"sex": rng.random(), "age": rng.uniform(18, 90), "weight": rng.uniform(-1, 1)}
-    point |= dict(zip(ANCESTRIES, rng.dirichlet([0.6] * 3).tolist(), strict=True))
-    for name in SPACE.details:
-        known = SPACE.ranges[name]
-        point[name] = float(np.clip(rng.normal(0, spread), known.low, known.high))
-    return point
 
 
 def test_the_space_is_of_the_bundled_rig_and_small():
@@ -35,7 +27,7 @@ def test_the_space_is_of_the_bundled_rig_and_small():
 
 @pytest.mark.parametrize("seed", range(5))
 def test_every_head_is_its_own_mirror_image_in_the_frame_of_the_eyes(seed):
-    mesh, centre = SPACE.head(random_point(np.random.default_rng(seed)))
+    mesh, centre = SPACE.head(random_head(SPACE, seed).head)
     assert np.isfinite(mesh).all()
     assert mesh[RIG.mirror] * (-1, 1, 1) == pytest.approx(mesh, abs=1e-9)
     ball = mesh[np.unique(RIG.triangles[slice(*RIG.parts["eye_left"])])]
@@ -83,7 +75,7 @@ def test_a_space_comes_back_from_its_file_as_it_was_stored(tmp_path):
     stored = save_space(SPACE, tmp_path / "a.space")
     assert stored.hash == SPACE.hash
     again = load_space(tmp_path / "a.space")
-    point = random_point(np.random.default_rng(9))
+    point = random_head(SPACE, 9).head
     assert (again.head(point)[0] == SPACE.head(point)[0]).all()
 
 

@@ -9,11 +9,11 @@ from emogen_core.errors import IdentityError, InvalidInputError
 from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.face.evaluate import vertices
 from emogen_core.face.identity import Identity
-from emogen_core.face.space import ANCESTRIES
 from emogen_core.face.space_file import load_bundled_space
 from emogen_core.rigs.head_check import check_head
 from emogen_core.rigs.identities import IDENTITIES, preset
 from emogen_core.rigs.quality import Gauge
+from emogen_core.rigs.random_heads import random_head
 from emogen_core.rigs.rest import BROW_HEIGHT, LOWER_COVER, UPPER_COVER
 from emogen_core.rigs.wear import fitter, nearest_preset, wear, worn_name
 from tests.rig_factory import small_rig
@@ -23,17 +23,7 @@ LOW = SPACE.low.astype(np.float64)
 FLESH = RIG.triangles[: RIG.parts["sockets"][1]]
 
 
-def random_head(seed):
-    rng = np.random.default_rng(seed)
-    point = {"sex": rng.random(), "age": rng.uniform(18, 90), "weight": rng.uniform(-1, 1)}
-    point |= dict(zip(ANCESTRIES, rng.dirichlet([0.6] * 3).tolist(), strict=True))
-    for name in rng.choice(SPACE.details, 20, replace=False):
-        known = SPACE.ranges[name]
-        point[str(name)] = float(np.clip(rng.normal(0, 0.4), known.low, known.high))
-    return Identity(f"random {seed}", point)
-
-
-HEADS = [preset(name) for name in IDENTITIES] + [random_head(seed) for seed in range(4)]
+HEADS = [preset(name) for name in IDENTITIES] + [random_head(SPACE, seed) for seed in range(4)]
 
 
 @pytest.fixture(scope="module", params=HEADS, ids=lambda head: head.name)
@@ -85,7 +75,7 @@ def test_a_presets_point_gives_the_preset(name):
 
 
 def test_wearing_adds_one_head_and_leaves_the_rig_alone():
-    head = random_head(1)
+    head = random_head(SPACE, 1)
     before = RIG.identities
     rig, name = wear(RIG, SPACE, head)
     assert name == worn_name(head, SPACE)

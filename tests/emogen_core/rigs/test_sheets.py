@@ -25,7 +25,7 @@ def test_sheets_are_drawn(tmp_path):
 def test_an_unknown_sheet_is_refused(tmp_path):
     with pytest.raises(InvalidInputError, match=r"'genes'.*'collisions'.*got .'nose'"):
         make_sheets(tmp_path, only=["nose"])
-    assert {"genes", "identities", "emotions", "random", "combinations", "collisions"} <= set(SHEETS)
+    assert {"genes", "identities", "heads", "emotions", "random", "combinations", "collisions"} <= set(SHEETS)
 
 
 @pytest.mark.parametrize("frame", [FACE, MOUTH, PORTRAIT])
