@@ -16,16 +16,18 @@ import struct
 import zipfile
 import zlib
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 import numpy as np
 
 from emogen_core.errors import RigFileError, expected
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from numpy.typing import NDArray
+
+T = TypeVar("T")
 
 FORMAT = "emogen-container-1"
 MAX_DOCUMENT_BYTES = 32 * 2**20
@@ -107,6 +109,27 @@ def read_container(path: Path, kind: str, version: int) -> tuple[dict[str, Any],
     if digest != envelope["hash"]:
         _refuse(path, f"content with the hash {envelope['hash']}", digest)
     return document, arrays, digest
+
+
+def read_as(
+    path: Path, kind: str, version: int, build: Callable[[dict[str, Any], dict[str, NDArray[Any]], str], T]
+) -> T:
+    """Read a container and make of it what it holds.
+
+    Args:
+        path: the file.
+        kind: what the file must be.
+        version: the version it must have.
+        build: gets the document, the arrays and the content's hash; it may take for granted that nothing is missing.
+
+    Raises:
+        RigFileError: as `read_container`, or the content is not what ``build`` expects.
+    """
+    content = read_container(path, kind, version)
+    try:
+        return build(*content)
+    except (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError) as error:
+        raise RigFileError(f"{path.name}: expected a complete {kind}, got {error!r}") from error
 
 
 def content_hash(kind: str, version: int, document: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> str:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import numpy as np
 
 from emogen_core.errors import RigFileError, expected
-from emogen_core.face.container import read_container, write_container
+from emogen_core.face.arrays import integers, millimetres, steps
+from emogen_core.face.container import read_as, write_container
 from emogen_core.face.rig import FLAGS, REGIONS, Adjustment, Combination, EmotionSet, Gene, Rig
 
 if TYPE_CHECKING:
@@ -22,9 +23,6 @@ KIND = "rig"
 VERSION = 2
 # Positions and offsets are stored in steps of 1/512 mm: far below what can be seen, and reaching 64 mm in 16 bits.
 STEPS_PER_MILLIMETRE = 512
-# Rounds the exact ties that halves and quarters of the source's decimals make, so the last bit of a product of
-# another machine cannot decide.
-_TIE_BREAK = 0.5001
 MAX_OFFSETS = 2**25
 
 
@@ -46,11 +44,7 @@ def load_rig(path: Path) -> Rig:
     Raises:
         RigFileError: not a rig file of this version, damaged, or its content contradicts itself.
     """
-    document, arrays, digest = read_container(path, KIND, VERSION)
-    try:
-        rig = _rig(document, arrays, digest)
-    except (KeyError, TypeError, ValueError, IndexError, AttributeError) as error:
-        raise RigFileError(f"{path.name}: expected the document of a rig, got {error!r}") from error
+    rig = read_as(path, KIND, VERSION, _rig)
     check_rig_content(rig)
     return rig
 
@@ -127,20 +121,14 @@ def _among(what: str, names: tuple[str, ...], known: tuple[str, ...]) -> None:
 def _rounded(rig: Rig) -> Rig:
     return replace(
         rig,
-        offsets=_from_steps(_steps(rig.offsets)),
-        neutrals={name: _from_steps(_steps(mesh)) for name, mesh in rig.neutrals.items()},
-        adjustments={n: Adjustment(a.shapes, _from_steps(_steps(a.offsets))) for n, a in rig.adjustments.items()},
+        offsets=_stored(rig.offsets),
+        neutrals={name: _stored(mesh) for name, mesh in rig.neutrals.items()},
+        adjustments={n: Adjustment(a.shapes, _stored(a.offsets)) for n, a in rig.adjustments.items()},
     )
 
 
-def _steps(values: NDArray[Any]) -> NDArray[np.int32]:
-    scaled = np.floor(values.astype(np.float64) * STEPS_PER_MILLIMETRE + _TIE_BREAK)
-    _need(bool((np.abs(scaled) < 2**24).all()), "finite lengths below 32 m", "others")
-    return scaled.astype(np.int32)
-
-
-def _from_steps(steps: NDArray[Any]) -> NDArray[np.float32]:
-    return (steps / STEPS_PER_MILLIMETRE).astype(np.float32)
+def _stored(lengths: NDArray[np.float32]) -> NDArray[np.float32]:
+    return millimetres(steps(lengths, STEPS_PER_MILLIMETRE), STEPS_PER_MILLIMETRE)
 
 
 def _document(rig: Rig) -> dict[str, Any]:
@@ -179,7 +167,7 @@ def _document(rig: Rig) -> dict[str, Any]:
 def _arrays(rig: Rig) -> dict[str, NDArray[Any]]:
     arrays: dict[str, NDArray[Any]] = {"triangles": rig.triangles, "mirror": rig.mirror.astype(np.int32)}
     arrays |= {f"region/{name}": indices for name, indices in rig.regions.items()}
-    arrays |= {f"neutral/{name}": _steps(mesh) for name, mesh in rig.neutrals.items()}
+    arrays |= {f"neutral/{name}": steps(mesh, STEPS_PER_MILLIMETRE) for name, mesh in rig.neutrals.items()}
     arrays |= _packed("offset", rig.offsets)
     for name, adjustment in rig.adjustments.items():
         arrays[f"adjusted/{name}/shapes"] = adjustment.shapes.astype(np.int32)
@@ -189,31 +177,31 @@ def _arrays(rig: Rig) -> dict[str, NDArray[Any]]:
 
 def _packed(prefix: str, offsets: NDArray[np.float32]) -> dict[str, NDArray[Any]]:
     """Return the moved vertices only: how many a shape has, which, and (M, 3) steps in 16 bits."""
-    steps = _steps(offsets)
-    _need(bool((np.abs(steps) < 2**15).all()), "offsets below 64 mm", float(np.abs(offsets).max()))
-    shape, vertex = np.nonzero(steps.any(2))
+    moves = steps(offsets, STEPS_PER_MILLIMETRE)
+    _need(bool((np.abs(moves) < 2**15).all()), "offsets below 64 mm", float(np.abs(offsets).max()))
+    shape, vertex = np.nonzero(moves.any(2))
     return {
         f"{prefix}/count": np.bincount(shape, minlength=len(offsets)).astype(np.int32),
         f"{prefix}/vertex": vertex.astype(np.int32),
-        f"{prefix}/step": steps[shape, vertex].astype(np.int16),
+        f"{prefix}/step": moves[shape, vertex].astype(np.int16),
     }
 
 
 def _unpacked(prefix: str, arrays: Mapping[str, NDArray[Any]], vertices: int) -> NDArray[np.float32]:
-    count, vertex = (_integers(arrays, f"{prefix}/{part}", 1, np.int32) for part in ("count", "vertex"))
-    step = _integers(arrays, f"{prefix}/step", 2, np.int16)
+    count, vertex = (integers(arrays, f"{prefix}/{part}", 1, np.int32) for part in ("count", "vertex"))
+    step = integers(arrays, f"{prefix}/step", 2, np.int16)
     _need(count.sum() == len(vertex) and bool((vertex >= 0).all()), f"{prefix}: {count.sum()} vertices", len(vertex))
     # A short file could ask for any amount of memory.
     _need(len(count) * vertices <= MAX_OFFSETS, f"at most {MAX_OFFSETS} offsets", len(count) * vertices)
     offsets = np.zeros((len(count), vertices, 3), np.float32)
-    offsets[np.repeat(np.arange(len(count)), count), vertex] = _from_steps(step)
+    offsets[np.repeat(np.arange(len(count)), count), vertex] = millimetres(step, STEPS_PER_MILLIMETRE)
     return offsets
 
 
 def _rig(document: dict[str, Any], arrays: dict[str, NDArray[Any]], digest: str) -> Rig:
     vertices = int(document["vertices"])
     _need(0 < vertices <= 2**20, "at most a million vertices", vertices)
-    regions = {n.removeprefix("region/"): _integers(arrays, n, 1, np.int32) for n in arrays if n.startswith("region/")}
+    regions = {n.removeprefix("region/"): integers(arrays, n, 1, np.int32) for n in arrays if n.startswith("region/")}
     names = _strings(document["identities"])
     return Rig(
         name=str(document["name"]),
@@ -223,11 +211,11 @@ def _rig(document: dict[str, Any], arrays: dict[str, NDArray[Any]], digest: str)
         collision_shapes=_strings(document["collision_shapes"]),
         emotion_sets={entry["name"]: _emotion(entry) for entry in document["emotion_sets"]},
         offsets=_unpacked("offset", arrays, vertices),
-        neutrals={name: _from_steps(_integers(arrays, f"neutral/{name}", 2, np.int32)) for name in names},
-        triangles=_integers(arrays, "triangles", 2, np.int32),
+        neutrals={name: _neutral(arrays, name) for name in names},
+        triangles=integers(arrays, "triangles", 2, np.int32),
         parts={name: (int(first), int(last)) for name, first, last in document["parts"]},
         regions=regions,
-        mirror=_integers(arrays, "mirror", 1, np.int32),
+        mirror=integers(arrays, "mirror", 1, np.int32),
         adjustments={name: _adjustment(name, arrays, vertices) for name in _strings(document["adjusted"])},
         hash=digest,
     )
@@ -249,17 +237,13 @@ def _emotion(entry: dict[str, Any]) -> EmotionSet:
 
 
 def _adjustment(name: str, arrays: Mapping[str, NDArray[Any]], vertices: int) -> Adjustment:
-    shapes = _integers(arrays, f"adjusted/{name}/shapes", 1, np.int32).astype(np.intp)
+    shapes = integers(arrays, f"adjusted/{name}/shapes", 1, np.int32).astype(np.intp)
     _need(bool((shapes >= 0).all()), "adjusted shapes that exist", shapes.tolist())
     return Adjustment(shapes, _unpacked(f"adjusted/{name}", arrays, vertices))
 
 
-def _integers(arrays: Mapping[str, NDArray[Any]], name: str, axes: int, kind: type[np.integer[Any]]) -> NDArray[Any]:
-    """Return an array that is stored as it is meant: another type or shape would be read as something else."""
-    found = arrays[name]
-    wanted = f"{name} of {np.dtype(kind)} with {axes} axes"
-    _need(found.dtype == kind and found.ndim == axes, wanted, f"{found.dtype} {found.shape}")
-    return found
+def _neutral(arrays: Mapping[str, NDArray[Any]], name: str) -> NDArray[np.float32]:
+    return millimetres(integers(arrays, f"neutral/{name}", 2, np.int32), STEPS_PER_MILLIMETRE)
 
 
 def _strings(values: list[Any]) -> tuple[str, ...]:

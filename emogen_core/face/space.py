@@ -39,6 +39,8 @@ DEFAULT_MIX: Mapping[str, float] = {"african": 0.2, "asian": 0.3, "caucasian": 0
 # Shares of ancestry may miss one by this much, for they are written with few decimals.
 SHARE_TOLERANCE = 1e-3
 BODY = ("weight", "muscle")
+MACROS = frozenset({"sex", "age", *ANCESTRIES, *BODY})
+"""Parameters that every space has; all others are details."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,8 +102,7 @@ class IdentitySpace:
     @property
     def details(self) -> tuple[str, ...]:
         """Names of the signed or one-sided sliders."""
-        fixed = {"sex", "age", *ANCESTRIES, *BODY}
-        return tuple(parameter.name for parameter in self.parameters if parameter.name not in fixed)
+        return tuple(parameter.name for parameter in self.parameters if parameter.name not in MACROS)
 
     @property
     def eye_radius(self) -> float:

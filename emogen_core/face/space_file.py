@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import astuple, replace
 from functools import lru_cache
 from pathlib import Path
@@ -10,8 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from emogen_core.errors import RigFileError, expected
-from emogen_core.face.container import read_container, write_container
-from emogen_core.face.space import IdentitySpace, Parameter, Target
+from emogen_core.face.arrays import integers, millimetres, steps
+from emogen_core.face.container import read_as, write_container
+from emogen_core.face.space import ANCESTRIES, MACROS, SHARE_TOLERANCE, IdentitySpace, Parameter, Target
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -24,7 +26,6 @@ BUNDLED_SPACE = Path(__file__).parent / "data" / "head.space"
 # Targets are stored in steps of 1/64 mm; the base head, read once, in 1/1024.
 STEPS_PER_MILLIMETRE = 64
 BASE_STEPS = 1024
-_TIE_BREAK = 0.5001
 _INDICES = ("half", "twins", "eyes")
 
 
@@ -51,11 +52,7 @@ def load_space(path: Path) -> IdentitySpace:
     Raises:
         RigFileError: not a space file of this version, damaged, or its content contradicts itself.
     """
-    document, arrays, digest = read_container(path, KIND, VERSION)
-    try:
-        space = _space(document, arrays, digest)
-    except (KeyError, TypeError, ValueError, IndexError, AttributeError) as error:
-        raise RigFileError(f"{path.name}: expected the document of a space, got {error!r}") from error
+    space = read_as(path, KIND, VERSION, _space)
     check_space(space)
     return space
 
@@ -74,9 +71,9 @@ def rounded(space: IdentitySpace) -> IdentitySpace:
     """Return a space as its file would hold it."""
     return replace(
         space,
-        base=_millimetres(_steps(space.base, BASE_STEPS), BASE_STEPS),
-        eyeball=_millimetres(_steps(space.eyeball, BASE_STEPS), BASE_STEPS),
-        low=_millimetres(_steps(space.low, BASE_STEPS), BASE_STEPS),
+        base=_stored(space.base),
+        eyeball=_stored(space.eyeball),
+        low=_stored(space.low),
         targets={name: _rounded_target(target) for name, target in space.targets.items()},
     )
 
@@ -85,6 +82,8 @@ def check_space(space: IdentitySpace) -> None:
     """Raise `RigFileError` unless every part of a space fits every other."""
     rows, vertices = len(space.base), len(space.low)
     _need(len(space.half) == len(space.twins) <= rows - 4, "half and twins of one length below the base's", rows)
+    _need(rows < 2**15, f"fewer than {2**15} rows", rows)
+    _need(space.base.shape[1:] == space.eyeball.shape[1:] == (3,), "base and eyeball (.., 3)", space.base.shape)
     _need(space.eyes.shape == (2, len(space.eyeball)), f"two eyeballs of {len(space.eyeball)}", space.eyes.shape)
     for name in _INDICES:
         index = getattr(space, name)
@@ -94,32 +93,45 @@ def check_space(space: IdentitySpace) -> None:
     for name, target in space.targets.items():
         _need(target.offsets.shape == (len(target.rows), 3), f"target {name} (rows, 3)", target.offsets.shape)
         _need(bool(((target.rows >= 0) & (target.rows < rows)).all()), f"target {name} within {rows} rows", name)
+        # A row that is named twice would be moved once.
+        _need(bool((np.diff(target.rows) > 0).all()), f"target {name} with rising rows", name)
     _check_parameters(space)
 
 
 def _check_parameters(space: IdentitySpace) -> None:
+    names = [known.name for known in space.parameters]
+    _need(len(set(names)) == len(names) and set(names) >= MACROS, f"{sorted(MACROS)} and details, each once", names)
     for known in space.parameters:
-        _need(known.low <= known.default <= known.high, f"{known.name}: low <= default <= high", known)
-    extremes = [{}, *({known.name: end} for known in space.parameters for end in (known.low, known.high))]
+        fits = -math.inf < known.low <= known.default <= known.high < math.inf
+        _need(fits, f"{known.name}: low <= default <= high", known)
+    total = sum(space.ranges[name].default for name in ANCESTRIES)
+    _need(abs(total - 1) <= SHARE_TOLERANCE, "default shares that sum to 1", total)
+    alone: list[dict[str, float]] = [{other: float(other == name) for other in ANCESTRIES} for name in ANCESTRIES]
+    rest = (known for known in space.parameters if known.name not in ANCESTRIES)
+    extremes = [*alone, *({known.name: end} for known in rest for end in (known.low, known.high))]
     unknown = sorted({name for point in extremes for name in space.weights(point)} - set(space.targets))
     _need(not unknown, "a target for every parameter", unknown)
 
 
 def _rounded_target(target: Target) -> Target:
-    steps = _steps(target.offsets, STEPS_PER_MILLIMETRE)
-    moved = steps.any(1)
-    return Target(target.rows[moved], _millimetres(steps[moved], STEPS_PER_MILLIMETRE))
+    moves = steps(target.offsets, STEPS_PER_MILLIMETRE)
+    moved = moves.any(1)
+    return Target(target.rows[moved], millimetres(moves[moved], STEPS_PER_MILLIMETRE))
+
+
+def _stored(lengths: NDArray[np.float32]) -> NDArray[np.float32]:
+    return millimetres(steps(lengths, BASE_STEPS), BASE_STEPS)
 
 
 def _arrays(space: IdentitySpace) -> dict[str, NDArray[Any]]:
     arrays: dict[str, NDArray[Any]] = {name: getattr(space, name) for name in _INDICES}
-    arrays |= {name: _steps(getattr(space, name), BASE_STEPS) for name in ("base", "eyeball", "low")}
+    arrays |= {name: steps(getattr(space, name), BASE_STEPS) for name in ("base", "eyeball", "low")}
     for name, target in space.targets.items():
-        steps = _steps(target.offsets, STEPS_PER_MILLIMETRE)
-        _need(bool((np.abs(steps) < 2**15).all()), "offsets below 512 mm", float(np.abs(target.offsets).max(initial=0)))
+        moves = steps(target.offsets, STEPS_PER_MILLIMETRE)
+        _need(bool((np.abs(moves) < 2**15).all()), "offsets below 512 mm", float(np.abs(target.offsets).max(initial=0)))
         # One coordinate after the other, each as the change from row to row: neighbours move alike.
         arrays[f"target/{_file_name(name)}/rows"] = np.diff(target.rows, prepend=0).astype(np.int16)
-        arrays[f"target/{_file_name(name)}/steps"] = np.diff(steps.astype(np.int16), axis=0, prepend=0).T.copy()
+        arrays[f"target/{_file_name(name)}/steps"] = np.diff(moves.astype(np.int16), axis=0, prepend=0).T.copy()
     return arrays
 
 
@@ -127,13 +139,13 @@ def _space(document: dict[str, Any], arrays: Mapping[str, NDArray[Any]], digest:
     return IdentitySpace(
         topology=str(document["topology"]),
         parameters=tuple(_parameter(entry) for entry in document["parameters"]),
-        base=_millimetres(arrays["base"], BASE_STEPS),
-        half=arrays["half"],
-        twins=arrays["twins"],
-        eyes=arrays["eyes"],
-        eyeball=_millimetres(arrays["eyeball"], BASE_STEPS),
+        base=millimetres(integers(arrays, "base", 2, np.int32), BASE_STEPS),
+        half=integers(arrays, "half", 1, np.int32),
+        twins=integers(arrays, "twins", 1, np.int32),
+        eyes=integers(arrays, "eyes", 2, np.int32),
+        eyeball=millimetres(integers(arrays, "eyeball", 2, np.int32), BASE_STEPS),
         targets={str(name): _target(str(name), arrays) for name in document["targets"]},
-        low=_millimetres(arrays["low"], BASE_STEPS),
+        low=millimetres(integers(arrays, "low", 1, np.int32), BASE_STEPS),
         lid_correctives=tuple((str(name), str(method)) for name, method in document["lid_correctives"]),
         hash=digest,
     )
@@ -145,23 +157,14 @@ def _parameter(entry: list[Any]) -> Parameter:
 
 
 def _target(name: str, arrays: Mapping[str, NDArray[Any]]) -> Target:
-    rows, steps = (arrays[f"target/{_file_name(name)}/{part}"] for part in ("rows", "steps"))
-    offsets = np.cumsum(steps.T, axis=0, dtype=np.int16)
-    return Target(np.cumsum(rows, dtype=np.int32), _millimetres(offsets, STEPS_PER_MILLIMETRE))
+    place = f"target/{_file_name(name)}"
+    rows, moves = integers(arrays, f"{place}/rows", 1, np.int16), integers(arrays, f"{place}/steps", 2, np.int64)
+    offsets = np.cumsum(moves.T, axis=0, dtype=np.int16)
+    return Target(np.cumsum(rows, dtype=np.int32), millimetres(offsets, STEPS_PER_MILLIMETRE))
 
 
 def _file_name(target: str) -> str:
     return target.replace("+", ".plus").removesuffix("-") + (".minus" if target.endswith("-") else "")
-
-
-def _steps(values: NDArray[Any], scale: int) -> NDArray[np.int32]:
-    scaled = np.floor(values.astype(np.float64) * scale + _TIE_BREAK)
-    _need(bool((np.abs(scaled) < 2**24).all()), "finite lengths below 16 m", "others")
-    return scaled.astype(np.int32)
-
-
-def _millimetres(steps: NDArray[Any], scale: int) -> NDArray[np.float32]:
-    return (steps / scale).astype(np.float32)
 
 
 def _need(condition: bool, what: str, got: object) -> None:

@@ -1,7 +1,6 @@
-"""Ways to damage a rig file, drawn from a generator: raw bytes, or content whose hash fits again."""
+"""Ways to damage a rig or space file, drawn from a generator: raw bytes, or content whose hash fits again."""
 
 from emogen_core.face.container import read_container, write_container
-from emogen_core.face.rig_file import KIND, VERSION
 
 ODD = (None, -1, 2**31, 2**63, 1e300, 0.5, "", "nowhere", "x" * 5000, [], {}, [[]], True, ["a"], {"name": 1})
 DTYPES = ("?", "u1", "i2", "i4", "i8", "u8", "f2", "f4", "f8")
@@ -25,9 +24,9 @@ def damaged_bytes(good, path, rng):
     path.write_bytes(data)
 
 
-def damaged_content(good, path, rng):
+def damaged_content(good, path, rng, kind, version):
     """Change the document or an array, and store that with a hash that fits."""
-    document, arrays, _ = read_container(good, KIND, VERSION)
+    document, arrays, _ = read_container(good, kind, version)
     if rng.random() < 0.5:
         _change(document, rng)
     else:
@@ -35,7 +34,7 @@ def damaged_content(good, path, rng):
         arrays[name] = _changed(arrays[name], rng)
         if arrays[name] is None:
             del arrays[name]
-    write_container(path, KIND, VERSION, document, arrays)
+    write_container(path, kind, version, document, arrays)
 
 
 def _change(value, rng):

@@ -9,9 +9,12 @@ import pytest
 
 from emogen_core.errors import InvalidInputError, RigFileError
 from emogen_core.face.bundled import load_bundled_rig
+from emogen_core.face.container import read_container, write_container
 from emogen_core.face.space import AGES, age_shares, fit_sphere, topology_hash
-from emogen_core.face.space_file import BUNDLED_SPACE, load_bundled_space, load_space, save_space
+from emogen_core.face.space_file import BUNDLED_SPACE, KIND, VERSION, load_bundled_space, load_space, save_space
 from emogen_core.rigs.random_heads import random_head
+from tests.emogen_core.face.fuzz import SPACES, fuzz
+from tests.space_factory import small_space
 
 RIG, SPACE = load_bundled_rig(), load_bundled_space()
 
@@ -91,6 +94,39 @@ def test_a_space_comes_back_from_its_file_as_it_was_stored(tmp_path):
 def test_a_space_that_contradicts_itself_is_not_stored(tmp_path, change):
     with pytest.raises(RigFileError, match="expected"):
         save_space(replace(SPACE, **change), tmp_path / "bad.space")
+
+
+def test_a_damaged_space_is_refused_in_one_line_or_sound(tmp_path):
+    """A short run of fuzz.py."""
+    found = fuzz(tmp_path, range(200), SPACES)
+    assert found["refused"] > 140
+    assert sum(found.values()) == 200
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda d, _: d["parameters"].pop(2), "each once"),
+        (lambda d, _: d["parameters"].append(d["parameters"][-1]), "each once"),
+        (lambda d, _: d["parameters"][2].__setitem__(4, 0.9), "sum to 1"),
+        (lambda d, _: d["parameters"][0].__setitem__(3, 1e999), "Infinity|complete space|plain JSON"),
+        (lambda d, _: d["parameters"][0].__setitem__(3, -1), "low <= default <= high"),
+        (lambda _, a: a.update(half=a["half"].astype(np.float64)), "half of int32 with 1 axes"),
+        (lambda _, a: a.update(base=a["base"].astype(np.float32)), "base of int32"),
+        (lambda _, a: a.update(base=a["base"][:, :2]), r"base and eyeball"),
+        (lambda _, a: a["target/nose-width.plus/rows"].__setitem__(1, 0), "rising rows"),
+        (lambda _, a: a.pop("target/nose-width.plus/rows"), "complete space"),
+    ],
+)
+def test_a_space_whose_hash_fits_but_whose_content_does_not_is_refused(tmp_path, change, said):
+    path = tmp_path / "a.space"
+    save_space(small_space(), path)
+    document, arrays, _ = read_container(path, KIND, VERSION)
+    arrays = {name: array.copy() for name, array in arrays.items()}
+    with pytest.raises(RigFileError, match=said):
+        change(document, arrays)
+        write_container(path, KIND, VERSION, document, arrays)
+        load_space(path)
 
 
 def test_a_damaged_file_is_refused(tmp_path):

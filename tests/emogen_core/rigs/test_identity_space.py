@@ -2,65 +2,20 @@
 
 from __future__ import annotations
 
-import zlib
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
-from scipy.sparse import csr_array
 
 from emogen_core.face.space import ANCESTRIES, SEXES
 from emogen_core.face.space_file import check_space, rounded
-from emogen_core.rigs.base_mesh import BaseMesh
 from emogen_core.rigs.detail_table import DETAILS
-from emogen_core.rigs.eyeballs import eyeball
-from emogen_core.rigs.identity_space import bake_space
+from tests.space_factory import MIDDLE, MIRROR, SIDE, MadeUpSource, small_geometry, small_space
 
-SIDE, MIDDLE = 16, 8
-COUNT = 2 * SIDE + MIDDLE
-BALL = len(eyeball()[0])
-
-
-def base():
-    """Left vertices, their mirror images, and the middle; the first eight on a sphere."""
-    rng = np.random.default_rng(1)
-    left = rng.uniform(0.1, 1, (SIDE, 3))
-    directions = rng.normal(size=(8, 3))
-    left[:8] = (0.6, 0.3, 0.2) + 0.1495 * directions / np.linalg.norm(directions, axis=1)[:, None]
-    middle = rng.uniform(-1, 1, (MIDDLE, 3)) * (0, 1, 1)
-    return np.concatenate([left, left * (-1, 1, 1), middle])
-
-
-MIRROR = np.concatenate([np.arange(SIDE) + SIDE, np.arange(SIDE), np.arange(2 * SIDE, COUNT)])
-
-
-class MadeUpSource:
-    """Every target moves all vertices, by numbers that its name decides, decimetres."""
-
-    def target(self, path):
-        return np.random.default_rng(zlib.crc32(path.encode())).normal(0, 0.05, (COUNT, 3))
+GEOMETRY = small_geometry()
 
 
 @pytest.fixture(scope="module")
-def geometry():
-    mesh = BaseMesh(base(), np.zeros((0, 2)), {"helper-l-eye": np.arange(8).reshape(2, 4)}, {}, MIRROR)
-    # The render mesh is the base mesh and two eyeballs, which it does not get from the base.
-    drawn = csr_array(np.eye(COUNT + 2 * BALL, COUNT))
-    balls = np.arange(BALL) + COUNT
-    return SimpleNamespace(
-        mesh=mesh,
-        operator=drawn,
-        positions=np.concatenate([base(), np.zeros((2 * BALL, 3))]),
-        mirror=np.concatenate([MIRROR, balls + BALL, balls]).astype(np.int32),
-        triangles=np.zeros((1, 3), np.int32),
-        parts={"skin": (0, 1)},
-        part_vertices=lambda part: balls if part == "eye_left" else balls + BALL,
-    )
-
-
-@pytest.fixture(scope="module")
-def space(geometry):
-    return bake_space(MadeUpSource(), geometry, np.linspace(0, 1, COUNT + 2 * BALL))
+def space():
+    return small_space()
 
 
 def moved(space, name):
@@ -76,13 +31,13 @@ def test_a_baked_space_is_whole(space):
     assert len(space.base) == SIDE + MIDDLE + 8
 
 
-def test_every_head_is_its_own_mirror_image(space, geometry):
+def test_every_head_is_its_own_mirror_image(space):
     rng = np.random.default_rng(3)
     for _ in range(5):
         point = {known.name: rng.uniform(known.low, known.high) for known in space.parameters}
         point |= dict(zip(ANCESTRIES, rng.dirichlet([1, 1, 1]), strict=True))
         mesh, centre = space.head(point)
-        assert mesh[geometry.mirror] * (-1, 1, 1) == pytest.approx(mesh, abs=1e-9)
+        assert mesh[GEOMETRY.mirror] * (-1, 1, 1) == pytest.approx(mesh, abs=1e-9)
         assert centre[1:].tolist() == [0, 0]
 
 
