@@ -20,10 +20,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from PIL import Image
 
-from emogen_core.errors import InvalidInputError, RigFileError, expected
+from emogen_core.errors import InvalidInputError, expected
 from emogen_core.face.appearance import Appearance
-from emogen_core.face.container import read_container, write_container
+from emogen_core.face.arrays import integers
+from emogen_core.face.container import read_as, write_container
 from emogen_core.rendering.composer import Composer
+from emogen_core.rendering.look_check import check_look
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -37,7 +39,6 @@ KIND = "look"
 VERSION = 2
 LAYERS = ("skin", "eyes", "lashes")
 HAIR_DEPTH = 32.0  # millimetres
-_LAYER_FIELDS = ("source", "uv", "triangles", "surface")
 
 
 @dataclass(frozen=True)
@@ -182,7 +183,8 @@ class Look:
 
     def check(self, rig: Rig) -> None:
         """Raise `InvalidInputError` unless this look fits the rig."""
-        if topology_hash(rig) != self.topology:
+        vertices = 1 + max(int(layer.source.max(initial=-1)) for layer in self.layers.values())
+        if topology_hash(rig) != self.topology or vertices > rig.offsets.shape[1]:
             raise InvalidInputError(f"look: {expected(f'one made for the rig {rig.name!r}', self.name)}")
 
 
@@ -238,28 +240,30 @@ def load_look(path: Path) -> Look:
     """Read a look and verify it.
 
     Raises:
-        RigFileError: damaged, foreign, of another version, or something in it is missing.
+        RigFileError: damaged, foreign, of another version, or its content contradicts itself.
     """
-    document, arrays, digest = read_container(path, KIND, VERSION)
-    try:
-        return Look(
-            name=document["name"],
-            topology=document["topology"],
-            default=document["default"],
-            layers={name: _layer(arrays, name) for name in LAYERS if f"layers/{name}/source" in arrays},
-            styles={name: _style(values) for name, values in document["styles"].items()},
-            textures=_folder(arrays, "textures"),
-            bakes={name: _floats(bake) for name, bake in _folder(arrays, "bakes").items()},
-            wrinkle_masks=_floats(arrays["wrinkle_masks"]),
-            wrinkle_drivers=tuple(document["wrinkle_drivers"]),
-            # Files from before this was told apart have none.
-            wrinkle_rest=tuple(document.get("wrinkle_rest", ())),
-            edges=_folder(arrays, "edges"),
-            paint=_folder(arrays, "paint"),
-            hash=digest,
-        )
-    except (KeyError, TypeError, InvalidInputError) as error:
-        raise RigFileError(f"{path.name}: {expected('a complete look', repr(error))}") from error
+    look = read_as(path, KIND, VERSION, _look)
+    check_look(look)
+    return look
+
+
+def _look(document: dict[str, Any], arrays: dict[str, NDArray[Any]], digest: str) -> Look:
+    return Look(
+        name=document["name"],
+        topology=document["topology"],
+        default=document["default"],
+        layers={name: _layer(arrays, name) for name in LAYERS if f"layers/{name}/source" in arrays},
+        styles={name: _style(values) for name, values in document["styles"].items()},
+        textures={n: integers(arrays, f"textures/{n}", 1, np.uint8) for n in _folder(arrays, "textures")},
+        bakes={n: _floats(integers(arrays, f"bakes/{n}", 2, np.uint8)) for n in _folder(arrays, "bakes")},
+        wrinkle_masks=_floats(integers(arrays, "wrinkle_masks", 2, np.uint8)),
+        wrinkle_drivers=tuple(dict(drivers) for drivers in document["wrinkle_drivers"]),
+        # Files from before this was told apart have none.
+        wrinkle_rest=tuple(document.get("wrinkle_rest", ())),
+        edges={n: integers(arrays, f"edges/{n}", 1, np.int32) for n in _folder(arrays, "edges")},
+        paint=_folder(arrays, "paint"),
+        hash=digest,
+    )
 
 
 def _style_document(style: Style) -> dict[str, Any]:
@@ -274,8 +278,13 @@ def _style(values: dict[str, Any]) -> Style:
 
 
 def _layer(arrays: Mapping[str, NDArray[Any]], name: str) -> Layer:
-    source, uv, triangles, surface = (arrays[f"layers/{name}/{part}"] for part in _LAYER_FIELDS)
-    return Layer(source, (uv / 65535).astype(np.float32), triangles, _floats(surface))
+    place = f"layers/{name}"
+    return Layer(
+        source=integers(arrays, f"{place}/source", 1, np.int32),
+        uv=(integers(arrays, f"{place}/uv", 2, np.uint16) / 65535).astype(np.float32),
+        triangles=integers(arrays, f"{place}/triangles", 2, np.int32),
+        surface=_floats(integers(arrays, f"{place}/surface", 2, np.uint8)),
+    )
 
 
 def _folder(arrays: Mapping[str, NDArray[Any]], folder: str) -> dict[str, NDArray[Any]]:

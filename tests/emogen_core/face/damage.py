@@ -1,4 +1,6 @@
-"""Ways to damage a rig or space file, drawn from a generator: raw bytes, or content whose hash fits again."""
+"""Ways to damage a rig, space or look file, drawn from a generator: raw bytes, or content whose hash fits again."""
+
+import numpy as np
 
 from emogen_core.face.container import read_container, write_container
 
@@ -64,5 +66,5 @@ def _changed(array, rng):
         case _:
             flat = array.ravel().copy()
             if len(flat):
-                flat[rng.randrange(len(flat))] = rng.choice((-1, 2**14, -(2**14), 7))
+                flat[rng.randrange(len(flat))] = np.array(rng.choice((-1, 2**14, -(2**14), 7))).astype(flat.dtype)
             return flat.reshape(array.shape)
