@@ -106,6 +106,11 @@ def _check_parameters(space: IdentitySpace) -> None:
         _need(fits, f"{known.name}: low <= default <= high", known)
     total = sum(space.ranges[name].default for name in ANCESTRIES)
     _need(abs(total - 1) <= SHARE_TOLERANCE, "default shares that sum to 1", total)
+    _check_targets(space)
+
+
+def _check_targets(space: IdentitySpace) -> None:
+    """Raise unless there is a target for either end of every parameter; of shares one has to stand alone."""
     alone: list[dict[str, float]] = [{other: float(other == name) for other in ANCESTRIES} for name in ANCESTRIES]
     rest = (known for known in space.parameters if known.name not in ANCESTRIES)
     extremes = [*alone, *({known.name: end} for known in rest for end in (known.low, known.high))]
