@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import astuple, replace
 from functools import lru_cache
 from pathlib import Path
@@ -26,6 +25,8 @@ BUNDLED_SPACE = Path(__file__).parent / "data" / "head.space"
 # Targets are stored in steps of 1/64 mm; the base head, read once, in 1/1024.
 STEPS_PER_MILLIMETRE = 64
 BASE_STEPS = 1024
+# No parameter goes farther: its target would be moved out of all proportion.
+_FARTHEST = 1000
 _INDICES = ("half", "twins", "eyes")
 
 
@@ -102,8 +103,8 @@ def _check_parameters(space: IdentitySpace) -> None:
     names = [known.name for known in space.parameters]
     _need(len(set(names)) == len(names) and set(names) >= MACROS, f"{sorted(MACROS)} and details, each once", names)
     for known in space.parameters:
-        fits = -math.inf < known.low <= known.default <= known.high < math.inf
-        _need(fits, f"{known.name}: low <= default <= high", known)
+        fits = -_FARTHEST <= known.low <= known.default <= known.high <= _FARTHEST
+        _need(fits, f"{known.name}: low <= default <= high, within {_FARTHEST}", known)
     total = sum(space.ranges[name].default for name in ANCESTRIES)
     _need(abs(total - 1) <= SHARE_TOLERANCE, "default shares that sum to 1", total)
     _check_targets(space)

@@ -110,6 +110,7 @@ def test_a_damaged_space_is_refused_in_one_line_or_sound(tmp_path):
         (lambda d, _: d["parameters"].append(d["parameters"][-1]), "each once"),
         (lambda d, _: d["parameters"][2].__setitem__(4, 0.9), "sum to 1"),
         (lambda d, _: d["parameters"][0].__setitem__(3, 1e999), "Infinity|complete space|plain JSON"),
+        (lambda d, _: d["parameters"][0].__setitem__(3, 1e300), "within 1000"),
         (lambda d, _: d["parameters"][0].__setitem__(3, -1), "low <= default <= high"),
         (lambda _, a: a.update(half=a["half"].astype(np.float64)), "half of int32 with 1 axes"),
         (lambda _, a: a.update(base=a["base"].astype(np.float32)), "base of int32"),
