@@ -11,10 +11,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy import sparse
 
 from emogen_core.face.evaluate import vertices
 from emogen_core.rendering.look import HAIR_DEPTH
+from emogen_core.rendering.normals import NormalField
 from emogen_core.rendering.recent import Recent
 from emogen_core.rendering.worn import dropped_look, dropped_rig, worn_look, worn_rig
 
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
 POSITION, NORMAL, TEXTURE, LIGHT, TINT = slice(0, 3), slice(3, 6), slice(6, 8), slice(8, 10), slice(10, 14)
 COLUMNS = 14
+_BOTH = slice(0, 6)
 # Between lips at rest it is dark: how dark, and by how many millimetres they part until light gets in.
 _CLOSED_MOUTH, _OPEN_MOUTH = 0.20, 2.4
 # From so many millimetres behind the lips it grows dark, over so many more, and how much of the light is lost there.
@@ -71,7 +72,7 @@ class Surface:
         self._creased = np.flatnonzero(look.wrinkle_masks.any(axis=1))
         self._masks = np.ascontiguousarray(look.wrinkle_masks[self._creased].T)
         self._rests = look.wrinkle_rest or (1.0,) * len(look.wrinkle_drivers)
-        self._pupils = _pupils(look)
+        self._eyeballs = _eyeballs(rig, look)
         self._hair: Recent[str, tuple[NDArray[np.intp], NDArray[np.float32]]] = Recent()
         self._templates: Recent[str, dict[str, NDArray[np.float32]]] = Recent()
 
@@ -101,9 +102,10 @@ class Surface:
     ) -> dict[str, NDArray[np.float32]]:
         """Return layer name -> (R, 14) float32 rows of one face, from its (K,) weights, mesh and normals."""
         rows = {name: template.copy() for name, template in self._template(identity).items()}
+        # Side by side, so that a vertex is fetched once.
+        both = np.concatenate([mesh, normals], axis=1)
         for name, layer in self.look.layers.items():
-            rows[name][:, POSITION] = mesh[layer.source]
-            rows[name][:, NORMAL] = normals[layer.source]
+            rows[name][:, _BOTH] = both.take(layer.source, axis=0)
         self._comb(rows["skin"], identity)
         if "mouth_upper" in self.look.edges:
             self._light_mouth(rows["skin"], identity, mesh)
@@ -193,7 +195,7 @@ class Surface:
         rows[self._creased, 13] = 1 - smooth
 
     def _shade_eyes(self, rows: NDArray[np.float32], mesh: NDArray[np.float32]) -> None:
-        for side, chosen in (("left", rows[:, 0] > 0), ("right", rows[:, 0] <= 0)):
+        for side, (chosen, pupil) in self._eyeballs.items():
             upper, lower = mesh[self.look.edges[f"{side}_upper"]], mesh[self.look.edges[f"{side}_lower"]]
             points = rows[chosen, :2]
             low, high = points.min(0), points.max(0)
@@ -203,7 +205,6 @@ class Surface:
             light = _LID_SHADOW + (1 - _LID_SHADOW) * _smooth(below / _LID_REACH)
             light *= _CORNER + (1 - _CORNER) * _smooth((above + below) / _CORNER_REACH)
             rows[chosen, 10] = light * (0.72 + 0.28 * _smooth(above / 0.16))
-            pupil = self._pupils[chosen[self._pupils]]
             gaze = (rows[pupil, :2].mean(0) - centre) / radius
             lamp, rows[chosen, 12] = _catch_light(centre, radius, gaze, (upper, lower))
             rows[chosen, LIGHT] = (points - centre) / radius - lamp
@@ -224,37 +225,17 @@ def _catch_light(
     return lamp, float(_smooth(np.array((top - bottom - _SHUT) / (_OPEN - _SHUT))))
 
 
-class NormalField:
-    """Area-weighted vertex normals by one sparse product."""
-
-    def __init__(self, triangles: NDArray[np.int32], vertex_count: int) -> None:
-        """Take (T, 3) triangles over ``vertex_count`` vertices."""
-        count = len(triangles)
-        entries = np.ones(3 * count, np.float32)
-        columns = np.repeat(np.arange(count), 3)
-        self._a, self._b, self._c = (np.ascontiguousarray(column) for column in triangles.T)
-        self._incidence = sparse.csr_array((entries, (triangles.ravel(), columns)), shape=(vertex_count, count))
-
-    def __call__(self, mesh: NDArray[np.float32]) -> NDArray[np.float32]:
-        """Return (N, 3) float32 unit normals of (N, 3) vertices; zero where a vertex has no area around it."""
-        corner = mesh[self._a]
-        first, second = (mesh[self._b] - corner).T, (mesh[self._c] - corner).T
-        faces = np.empty((len(corner), 3), np.float32)
-        faces[:, 0] = first[1] * second[2] - first[2] * second[1]
-        faces[:, 1] = first[2] * second[0] - first[0] * second[2]
-        faces[:, 2] = first[0] * second[1] - first[1] * second[0]
-        normals: NDArray[np.float32] = self._incidence @ faces
-        length = np.sqrt(np.einsum("ij,ij->i", normals, normals))
-        normals /= np.maximum(length, 1e-12)[:, None]
-        return normals
-
-
-def _pupils(look: Look) -> NDArray[np.intp]:
-    """Return the render vertices of the eyes in the middles of their pupils: eyes are mapped polar about these."""
+def _eyeballs(rig: Rig, look: Look) -> dict[str, tuple[NDArray[np.intp], NDArray[np.intp]]]:
+    """Return each side's render vertices of the eyes, and those of them in the middle of the pupil."""
     if "eyes" not in look.layers:
-        return np.zeros(0, np.intp)
-    away = np.linalg.norm(look.layers["eyes"].uv - np.float32(0.5), axis=1)
-    return np.flatnonzero(away < away.min() + 1e-3)
+        return {}
+    layer = look.layers["eyes"]
+    across = rig.neutral(rig.identities[0])[layer.source, 0]
+    # Eyes are mapped polar about their pupils.
+    away = np.linalg.norm(layer.uv - np.float32(0.5), axis=1)
+    middle = away < away.min() + 1e-3
+    sides = {"left": across > 0, "right": across <= 0}
+    return {name: (np.flatnonzero(side), np.flatnonzero(side & middle)) for name, side in sides.items()}
 
 
 def _needed(rig: Rig, look: Look) -> NDArray[np.int32]:
