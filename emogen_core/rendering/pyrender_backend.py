@@ -45,6 +45,8 @@ except Exception as error:
     raise MissingGLError(_NO_GL.format(reason=f"{type(error).__name__}: {error}")) from error
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     from emogen_core.face.rig import Rig
@@ -249,6 +251,7 @@ class _Pass(_PyrenderRenderer):
         program = self._program_cache.get_program("mesh.vert", "mesh.frag", defines=_KINDS[primitive.material.name])
         if not program._in_context():
             program._add_to_context()
+            program.set_uniform = _remembering(program.set_uniform)
         return program
 
     def _bind_lighting(self, scene: Any, program: Any, node: Any, flags: int) -> None:
@@ -304,6 +307,19 @@ class _Pass(_PyrenderRenderer):
             GL.glRenderbufferStorage(GL.GL_RENDERBUFFER, kind, width, height)
             GL.glFramebufferRenderbuffer(GL.GL_DRAW_FRAMEBUFFER, place, GL.GL_RENDERBUFFER, buffer)
         return int(colour), int(depth), int(frame)
+
+
+def _remembering(send: Callable[..., None]) -> Callable[..., None]:
+    """Return a `set_uniform` that skips what its program knows: pyrender tells everything again for every face."""
+    known: dict[str, bytes] = {}
+
+    def set_uniform(name: str, value: Any) -> None:
+        told = np.asarray(value).tobytes()
+        if known.get(name) != told:
+            known[name] = told
+            send(name, value)
+
+    return set_uniform
 
 
 def _context() -> Any:
