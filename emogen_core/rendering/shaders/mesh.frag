@@ -4,6 +4,7 @@ struct Material {
 };
 uniform Material material;
 uniform vec3 background;
+uniform vec3 fade;
 uniform vec3 tone;
 uniform float breakup;  // how much of the shine a darker texel loses: 3.2 / green of the skin's tone
 
@@ -29,8 +30,7 @@ vec3 developed(vec3 c) {
 }
 
 void main() {
-    float gone = clamp(extra.y, 0.0, 1.0);
-    gone *= gone * (3.0 - 2.0 * gone);
+    float gone = smoothstep(fade.x, fade.y, extra.y);
     vec4 texel = texture(material.base_color_texture, uv);
 #ifdef KIND_LASH
     vec3 c = developed(tone * tone * diffuse);

@@ -15,7 +15,7 @@ uniform float shine_scale;
 out vec2 uv;
 out vec3 diffuse;
 out vec3 shine;
-out vec2 extra;  // wrinkle activation (below 0: always wet), how far the bust has faded (0 to 1, and beyond)
+out vec2 extra;  // wrinkle activation (below 0: always wet), height against which the bust fades
 
 #ifdef KIND_EYE
 out vec3 ray;
@@ -64,9 +64,7 @@ void main() {
     float gloss = tint.z * shine_scale;
     shine = gloss * (KEY_COLOUR * light.x * lobes(n, KEY, view) + FILL_COLOUR * tint.x * lobes(n, FILL, view)
         + tint.x * edge * (0.06 * SKY + 0.22 * RIM_COLOUR * clamp(dot(n, RIM) + 0.45, 0.0, 1.0)));
-    // Divided here, once a vertex.
-    float height = position.y - fade.z * position.x * position.x;
-    extra = vec2(skin < 0.85 ? -1.0 : tint.w, (height - fade.x) / (fade.y - fade.x));
+    extra = vec2(skin < 0.85 ? -1.0 : tint.w, position.y - fade.z * position.x * position.x);
     uv = texcoord;
 #ifdef KIND_EYE
     diffuse = tint.xyz;
