@@ -32,6 +32,9 @@ STEPS = ("correct", "blend", "normals", "attributes", "upload", "draw", "read", 
 _RANDOM_GENES = 6
 _OFF = frozenset({"disabled", "lateral", "gaze"})
 _WARM_UP = 2
+# Enough to leave the nearest cache, as drawing does.
+_YARDSTICK_NUMBERS = 1 << 18
+_YARDSTICK_RUNS = 15
 
 
 def bench_render(  # noqa: PLR0913, PLR0917 - all have defaults but the first
@@ -51,7 +54,8 @@ def bench_render(  # noqa: PLR0913, PLR0917 - all have defaults but the first
         ``pool_ms``: min, median, p95 and max of the wall time from weights to PNG for all faces through a pool;
         ``step_core_ms``: for each of `STEPS` and their ``sum``, processor time a face in one process, the median over
         the rounds (``correct`` is done before faces are asked for, so it is not in ``pool_ms``); ``png_bytes``; and
-        what was measured on, with the machine's load before and after.
+        what was measured on, with the machine's load before and after and ``yardstick_ms``: what a fixed piece of
+        work took just then. Figures of two runs can be compared where their yardsticks agree.
 
     Raises:
         InvalidInputError: a number is below 1, or an unknown identity.
@@ -59,7 +63,7 @@ def bench_render(  # noqa: PLR0913, PLR0917 - all have defaults but the first
     """
     if min(faces, size, rounds, workers) < 1:
         raise InvalidInputError(f"bench: {expected('positive numbers', (faces, size, rounds, workers))}")
-    rig, load = load_bundled_rig(), _load()
+    rig, load, speed = load_bundled_rig(), _load(), _yardstick()
     who, settings = identity or rig.identities[0], RenderSettings(size, size)
     rig.neutral(who)
     genomes = [_random_genomes(rig, faces, seed) for seed in range(rounds + _WARM_UP)]
@@ -76,6 +80,7 @@ def bench_render(  # noqa: PLR0913, PLR0917 - all have defaults but the first
         "step_core_ms": steps,
         "png_bytes": pictures,
         "load": {"before": load, "after": _load()},
+        "yardstick_ms": {"before": speed, "after": _yardstick()},
     }
 
 
@@ -153,6 +158,20 @@ def _laps(
         png = encode_png(picture)
         marks.append(time.process_time())
         yield (blend, *np.diff(marks).tolist(), len(png))
+
+
+def _yardstick() -> float:
+    """Return the processor milliseconds that a fixed piece of work takes: median of some runs."""
+    numbers = np.arange(_YARDSTICK_NUMBERS, dtype=np.float32)
+    order = np.random.default_rng(0).permutation(len(numbers))
+    # Written in place: fresh memory costs what it costs, not what the processor does.
+    mixed, spent = np.ones_like(numbers), []
+    for _ in range(_YARDSTICK_RUNS):
+        start = time.process_time()
+        numbers.take(order, out=mixed, mode="clip")
+        np.sqrt(np.multiply(mixed, numbers, out=mixed), out=mixed)
+        spent.append(time.process_time() - start)
+    return _ms(1000 * np.median(spent))
 
 
 def _load() -> float:

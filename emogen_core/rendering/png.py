@@ -36,7 +36,7 @@ def encode_png(picture: NDArray[np.uint8]) -> bytes:
         raise InvalidInputError(f"picture: {expected('(height, width, 3) uint8', (picture.shape, str(picture.dtype)))}")
     height, width, _ = picture.shape
     header = struct.pack(">IIBBBBB", width, height, 8, _RGB, 0, 0, 0)
-    body = isal_zlib.compress(_filtered(picture).tobytes(), 1)
+    body = isal_zlib.compress(_filtered(picture), 1)
     return _SIGNATURE + _chunk(b"IHDR", header) + _chunk(b"IDAT", body) + _chunk(b"IEND", b"")
 
 

@@ -25,6 +25,7 @@ import numpy as np
 from emogen_core.errors import MissingGLError, RenderingError
 from emogen_core.rendering.camera import FAR, FIELD_OF_VIEW, NEAR, frame_head
 from emogen_core.rendering.recent import HEADS, Recent
+from emogen_core.rendering.shrink import halved
 from emogen_core.rendering.surface import COLUMNS, LIGHT, NORMAL, POSITION, TEXTURE, TINT, Surface
 
 os.environ.setdefault("PYOPENGL_PLATFORM", "egl")
@@ -44,6 +45,8 @@ except Exception as error:
     raise MissingGLError(_NO_GL.format(reason=f"{type(error).__name__}: {error}")) from error
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     from emogen_core.face.rig import Rig
@@ -197,13 +200,13 @@ class _Pass(_PyrenderRenderer):
         self._order = meshes
         self._program_cache = ShaderProgramCache(shader_dir=str(Path(__file__).parent / "shaders"))
         self._frames: dict[tuple[int, int], tuple[int, int, int]] = {}
+        self._drawn = np.empty((0, 0, 4), np.uint8)
         self._uniforms: dict[str, Any] = {}
         self._tones: dict[str, Any] = {}
         self._mesh_textures: set[Any] = set()
 
     def aim(self, camera: Camera, style: Style, settings: RenderSettings) -> None:
         """Take what the next faces share: view, colours of the head, size and background."""
-        self._width, self._height = settings.width, settings.height
         self.viewport_width, self.viewport_height = (_SUPERSAMPLING * n for n in (settings.width, settings.height))
         # Blending between mipmaps costs too much; where texels are magnified, even choosing one is a waste.
         large = self.viewport_height >= _MAGNIFIED
@@ -248,6 +251,7 @@ class _Pass(_PyrenderRenderer):
         program = self._program_cache.get_program("mesh.vert", "mesh.frag", defines=_KINDS[primitive.material.name])
         if not program._in_context():
             program._add_to_context()
+            program.set_uniform = _remembering(program.set_uniform)
         return program
 
     def _bind_lighting(self, scene: Any, program: Any, node: Any, flags: int) -> None:
@@ -277,20 +281,13 @@ class _Pass(_PyrenderRenderer):
         GL.glDepthFunc(GL.GL_LESS)
 
     def read(self) -> NDArray[np.uint8]:
-        """Average the picture down on the card and return it, colour only."""
-        width, height = self._width, self._height
-        small = self._frame(width, height)
-        GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self._frame(self.viewport_width, self.viewport_height))
-        GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, small)
-        GL.glBlitFramebuffer(
-            0, 0, self.viewport_width, self.viewport_height, 0, 0, width, height,
-            GL.GL_COLOR_BUFFER_BIT, GL.GL_LINEAR,
-        )  # fmt: skip
-        GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, small)
-        GL.glPixelStorei(GL.GL_PACK_ALIGNMENT, 1)
-        picture = np.empty((height, width, 3), np.uint8)
-        GL.glReadPixels(0, 0, width, height, GL.GL_RGB, GL.GL_UNSIGNED_BYTE, picture)
-        return picture[::-1]
+        """Return the picture averaged down, colour only."""
+        width, height = self.viewport_width, self.viewport_height
+        if self._drawn.shape[:2] != (height, width):
+            self._drawn = np.empty((height, width, 4), np.uint8)
+        GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self._frame(width, height))
+        GL.glReadPixels(0, 0, width, height, GL.GL_RGBA, GL.GL_UNSIGNED_BYTE, self._drawn)
+        return halved(self._drawn)
 
     def _frame(self, width: int, height: int) -> int:
         if (width, height) not in self._frames:
@@ -310,6 +307,19 @@ class _Pass(_PyrenderRenderer):
             GL.glRenderbufferStorage(GL.GL_RENDERBUFFER, kind, width, height)
             GL.glFramebufferRenderbuffer(GL.GL_DRAW_FRAMEBUFFER, place, GL.GL_RENDERBUFFER, buffer)
         return int(colour), int(depth), int(frame)
+
+
+def _remembering(send: Callable[..., None]) -> Callable[..., None]:
+    """Return a `set_uniform` that skips what its program knows: pyrender tells everything again for every face."""
+    known: dict[str, bytes] = {}
+
+    def set_uniform(name: str, value: Any) -> None:
+        told = np.asarray(value).tobytes()
+        if known.get(name) != told:
+            known[name] = told
+            send(name, value)
+
+    return set_uniform
 
 
 def _context() -> Any:

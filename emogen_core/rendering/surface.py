@@ -11,10 +11,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy import sparse
 
 from emogen_core.face.evaluate import vertices
 from emogen_core.rendering.look import HAIR_DEPTH
+from emogen_core.rendering.normals import NormalField
 from emogen_core.rendering.recent import Recent
 from emogen_core.rendering.worn import dropped_look, dropped_rig, worn_look, worn_rig
 
@@ -71,7 +71,7 @@ class Surface:
         self._creased = np.flatnonzero(look.wrinkle_masks.any(axis=1))
         self._masks = np.ascontiguousarray(look.wrinkle_masks[self._creased].T)
         self._rests = look.wrinkle_rest or (1.0,) * len(look.wrinkle_drivers)
-        self._pupils = _pupils(look)
+        self._eyeballs = _eyeballs(rig, look)
         self._hair: Recent[str, tuple[NDArray[np.intp], NDArray[np.float32]]] = Recent()
         self._templates: Recent[str, dict[str, NDArray[np.float32]]] = Recent()
 
@@ -102,8 +102,9 @@ class Surface:
         """Return layer name -> (R, 14) float32 rows of one face, from its (K,) weights, mesh and normals."""
         rows = {name: template.copy() for name, template in self._template(identity).items()}
         for name, layer in self.look.layers.items():
-            rows[name][:, POSITION] = mesh[layer.source]
-            rows[name][:, NORMAL] = normals[layer.source]
+            rows[name][:, POSITION] = mesh.take(layer.source, axis=0)
+            # Normals lie a coordinate at a time (`NormalField`).
+            rows[name][:, NORMAL] = normals.T.take(layer.source, axis=1).T
         self._comb(rows["skin"], identity)
         if "mouth_upper" in self.look.edges:
             self._light_mouth(rows["skin"], identity, mesh)
@@ -163,16 +164,17 @@ class Surface:
         rest = self._rest.get(identity, lambda: self._gap(self.rig.neutral(identity)))
         opening = float(_smooth(np.array((self._gap(mesh) - rest) / _OPEN_MOUTH)))
         lip = mesh[self.look.edges["mouth_upper"]]
-        x, y, z = rows[self._inside, :3].T
+        inside = np.ascontiguousarray(rows.take(self._inside, axis=0).T)
+        x, y, z = inside[:3]
         behind = lip[:, 2].max() - z
-        light = rows[self._inside][:, (10, 8)]
+        light = inside[[10, 8]]
         forward = _smooth(1 - behind / _FORWARD)
-        light += (_OPEN_AIR - light).clip(0) * (self._depth_of_mouth * forward)[:, None]
+        light += np.maximum(_OPEN_AIR - light, 0) * (self._depth_of_mouth * forward)
         shaded = (1 - _smooth((np.interp(x, lip[:, 0], lip[:, 1]) - y) / _LIP_REACH)) * (1 - forward)
-        light *= 1 - (_LIP_SHADOW * self._depth_of_mouth * shaded)[:, None]
-        light[:, 0] *= 1 - self._depth_of_mouth * (1 - _CLOSED_MOUTH) * (1 - opening)
-        light[:, 0] *= 1 - _CAVITY * self._depth_of_mouth * _smooth((behind - _LIT_DEPTH) / _DARK_DEPTH)
-        rows[self._inside, 10], rows[self._inside, 8] = light.T
+        light *= 1 - _LIP_SHADOW * self._depth_of_mouth * shaded
+        light[0] *= 1 - self._depth_of_mouth * (1 - _CLOSED_MOUTH) * (1 - opening)
+        light[0] *= 1 - _CAVITY * self._depth_of_mouth * _smooth((behind - _LIT_DEPTH) / _DARK_DEPTH)
+        rows[self._inside, 10], rows[self._inside, 8] = light
 
     def _gap(self, mesh: NDArray[np.float32]) -> float:
         """Return how far the inner edges of the lips are apart, millimetres, where that is most."""
@@ -193,21 +195,20 @@ class Surface:
         rows[self._creased, 13] = 1 - smooth
 
     def _shade_eyes(self, rows: NDArray[np.float32], mesh: NDArray[np.float32]) -> None:
-        for side, chosen in (("left", rows[:, 0] > 0), ("right", rows[:, 0] <= 0)):
+        for side, (chosen, pupil) in self._eyeballs.items():
             upper, lower = mesh[self.look.edges[f"{side}_upper"]], mesh[self.look.edges[f"{side}_lower"]]
-            points = rows[chosen, :2]
-            low, high = points.min(0), points.max(0)
+            points = np.ascontiguousarray(rows[chosen, :2].T)
+            low, high = points.min(1), points.max(1)
             centre, radius = (low + high) / 2, (high[0] - low[0]) / 2
-            below = (np.interp(points[:, 0], upper[:, 0], upper[:, 1]) - points[:, 1]) / radius
-            above = (points[:, 1] - np.interp(points[:, 0], lower[:, 0], lower[:, 1])) / radius
+            below = (np.interp(points[0], upper[:, 0], upper[:, 1]) - points[1]) / radius
+            above = (points[1] - np.interp(points[0], lower[:, 0], lower[:, 1])) / radius
             light = _LID_SHADOW + (1 - _LID_SHADOW) * _smooth(below / _LID_REACH)
             light *= _CORNER + (1 - _CORNER) * _smooth((above + below) / _CORNER_REACH)
             rows[chosen, 10] = light * (0.72 + 0.28 * _smooth(above / 0.16))
-            pupil = self._pupils[chosen[self._pupils]]
             gaze = (rows[pupil, :2].mean(0) - centre) / radius
             lamp, rows[chosen, 12] = _catch_light(centre, radius, gaze, (upper, lower))
-            rows[chosen, LIGHT] = (points - centre) / radius - lamp
-            rows[chosen, 13] = np.clip(above, -1, 1)
+            rows[chosen, LIGHT] = (points.T - centre) / radius - lamp
+            rows[chosen, 13] = np.minimum(np.maximum(above, -1), 1)
 
 
 def _catch_light(
@@ -224,37 +225,17 @@ def _catch_light(
     return lamp, float(_smooth(np.array((top - bottom - _SHUT) / (_OPEN - _SHUT))))
 
 
-class NormalField:
-    """Area-weighted vertex normals by one sparse product."""
-
-    def __init__(self, triangles: NDArray[np.int32], vertex_count: int) -> None:
-        """Take (T, 3) triangles over ``vertex_count`` vertices."""
-        count = len(triangles)
-        entries = np.ones(3 * count, np.float32)
-        columns = np.repeat(np.arange(count), 3)
-        self._a, self._b, self._c = (np.ascontiguousarray(column) for column in triangles.T)
-        self._incidence = sparse.csr_array((entries, (triangles.ravel(), columns)), shape=(vertex_count, count))
-
-    def __call__(self, mesh: NDArray[np.float32]) -> NDArray[np.float32]:
-        """Return (N, 3) float32 unit normals of (N, 3) vertices; zero where a vertex has no area around it."""
-        corner = mesh[self._a]
-        first, second = (mesh[self._b] - corner).T, (mesh[self._c] - corner).T
-        faces = np.empty((len(corner), 3), np.float32)
-        faces[:, 0] = first[1] * second[2] - first[2] * second[1]
-        faces[:, 1] = first[2] * second[0] - first[0] * second[2]
-        faces[:, 2] = first[0] * second[1] - first[1] * second[0]
-        normals: NDArray[np.float32] = self._incidence @ faces
-        length = np.sqrt(np.einsum("ij,ij->i", normals, normals))
-        normals /= np.maximum(length, 1e-12)[:, None]
-        return normals
-
-
-def _pupils(look: Look) -> NDArray[np.intp]:
-    """Return the render vertices of the eyes in the middles of their pupils: eyes are mapped polar about these."""
+def _eyeballs(rig: Rig, look: Look) -> dict[str, tuple[NDArray[np.intp], NDArray[np.intp]]]:
+    """Return each side's render vertices of the eyes, and those of them in the middle of the pupil."""
     if "eyes" not in look.layers:
-        return np.zeros(0, np.intp)
-    away = np.linalg.norm(look.layers["eyes"].uv - np.float32(0.5), axis=1)
-    return np.flatnonzero(away < away.min() + 1e-3)
+        return {}
+    layer = look.layers["eyes"]
+    across = rig.neutral(rig.identities[0])[layer.source, 0]
+    # Eyes are mapped polar about their pupils.
+    away = np.linalg.norm(layer.uv - np.float32(0.5), axis=1)
+    middle = away < away.min() + 1e-3
+    sides = {"left": across > 0, "right": across <= 0}
+    return {name: (np.flatnonzero(side), np.flatnonzero(side & middle)) for name, side in sides.items()}
 
 
 def _needed(rig: Rig, look: Look) -> NDArray[np.int32]:
@@ -275,6 +256,7 @@ def _gains(drivers: Mapping[str, float], names: Mapping[str, int]) -> NDArray[np
 
 def _smooth(t: NDArray[Any]) -> NDArray[Any]:
     """Return smoothstep of t between 0 and 1."""
-    clipped = np.clip(t, 0, 1)
+    # In half the time of `np.clip`.
+    clipped = np.minimum(np.maximum(t, 0), 1)
     smooth: NDArray[Any] = clipped * clipped * (3 - 2 * clipped)
     return smooth

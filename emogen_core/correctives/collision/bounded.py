@@ -14,24 +14,21 @@ _STILL = 1e-8
 
 
 def box_least_squares(
-    a: NDArray[np.float64], b: NDArray[np.float64], weight: float, ridge: float, upper: NDArray[np.float64]
+    matrix: NDArray[np.float64], goal: NDArray[np.float64], upper: NDArray[np.float64], start: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return the x in [0, upper] that minimises ``weight |a x - b|^2 + ridge |x|^2``, for ``ridge`` > 0.
+    """Return the x in [0, upper] that minimises ``x' matrix x - 2 goal' x``.
 
-    Cyclic coordinate descent on the normal equations: each step is exact and clipped, and the minimum is unique. It
-    starts from the unbounded solution, clipped, which mostly is the answer already.
+    These are normal equations: of ``v |a x - b|^2 + r |x|^2`` the matrix is ``v a' a + r I`` and the goal ``v a' b``.
+    Cyclic coordinate descent: each step is exact and clipped, and the minimum is unique.
 
     Args:
-        a: (M, n).
-        b: (M,).
-        weight: of the data.
-        ridge: of the size of x.
+        matrix: (n, n) symmetric, positive definite.
+        goal: (n,).
         upper: (n,) bounds, at least 0.
+        start: (n,) any guess; the unbounded solution mostly is the answer already.
     """
-    matrix = weight * a.T @ a + ridge * np.eye(a.shape[1])
-    goal = weight * a.T @ b
-    start = np.clip(np.linalg.solve(matrix, goal), 0, upper)
-    x, slope, hessian = start.tolist(), (matrix @ start - goal).tolist(), matrix.tolist()
+    begin = np.clip(start, 0, upper)
+    x, slope, hessian = begin.tolist(), (matrix @ begin - goal).tolist(), matrix.tolist()
     bounds = upper.tolist()
     for _ in range(_SWEEPS):
         moved = 0.0

@@ -13,7 +13,7 @@ that went through give constraints too.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -53,11 +53,19 @@ class Contacts:
 
 @dataclass(frozen=True, eq=False)
 class Detection:
-    """What one face shows: the contacts of both types, and the greatest depth of an anchor within (millimetres)."""
+    """What one face shows.
+
+    Attributes:
+        lips: the contacts of the upper lip.
+        teeth: those of the teeth.
+        depths: the greatest depth of an anchor within, millimetres, of each type.
+        met: (n,) the anchors whose negative ray meets the lower lip at all, colliding or not.
+    """
 
     lips: Contacts
     teeth: Contacts
     depths: tuple[float, float]
+    met: NDArray[np.intp] = field(default_factory=lambda: np.zeros(0, np.intp))
 
     @property
     def depth(self) -> float:
@@ -70,13 +78,14 @@ class Detection:
         return bool(len(self.lips) or len(self.teeth))
 
 
-def detect(
+def detect(  # noqa: PLR0913 - two of them by keyword
     anchors: NDArray[np.float64],
     kind: NDArray[np.intp],
     patch: NDArray[np.float64],
     triangles: NDArray[np.intp],
     *,
     tolerance: float = TOLERANCE,
+    among: NDArray[np.intp] | None = None,
 ) -> Detection:
     """Find what collides on one face.
 
@@ -86,20 +95,27 @@ def detect(
         patch: (R, 3) the lower lip's vertices, millimetres.
         triangles: (F, 3) its faces, counter-clockwise seen from outside.
         tolerance: millimetres that do not count.
+        among: (n,) the only anchors to be looked at, rising; by default all that may meet the patch.
     """
     target = Target(patch, triangles)
-    axis = _AXIS[kind]
-    mine = target.ahead(anchors, axis)
-    hits = target.cross(anchors[mine], axis[mine], negative=True)
-    ray = hits.along(NEGATIVE[axis[mine]])
+    axis = _AXIS.take(kind)
+    if among is None:
+        seen = target.see(anchors, axis)
+        mine = target.ahead(seen)
+        seen = seen.take(mine)
+    else:
+        mine, seen = among, target.see(anchors.take(among, axis=0), axis.take(among))
+    hits = target.cross(seen, negative=True)
+    ray = hits.along(NEGATIVE.take(axis.take(mine)))
     leaving = ray.leaves(ray.first)
     # Only anchors whose negative ray can give a pair are sampled along the other rays.
     suspects = np.flatnonzero(leaving)
-    within = suspects[_within(target, anchors[mine[suspects]])]
+    # A second look trusts the negative ray: hardly an anchor that leaves flesh along it is not within.
+    within = suspects if among is not None else suspects[_within(target, anchors.take(mine.take(suspects), axis=0))]
     through = np.flatnonzero(~leaving & (ray.count == 2) & ray.leaves(ray.second))
     pairs = [(within, ray.first[within]), (through, ray.second[through])]
     lips, teeth = (_contacts(hits, mine, _of(pairs, kind[mine] == own), tolerance) for own in (LIPS, TEETH))
-    return Detection(lips[0], teeth[0], (lips[1], teeth[1]))
+    return Detection(lips[0], teeth[0], (lips[1], teeth[1]), mine[ray.count > 0])
 
 
 def _of(
@@ -126,7 +142,7 @@ def _within(target: Target, points: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return (n,) whether (n, 3) points are within the lower lip."""
     if not len(points):
         return np.zeros(0, bool)
-    hits = target.cross(np.concatenate([points, points]), np.repeat([UP, OUT], len(points)))
+    hits = target.cross(target.see(np.concatenate([points, points]), np.repeat([UP, OUT], len(points))))
     ahead, back = hits.along(1), hits.along(-1)
     leaves = ahead.leaves(ahead.first)
     between = leaves & back.leaves(back.first)

@@ -2,10 +2,10 @@
 
 The paper samples every anchor with rays along the collision directions, up/down and outward/inward. Along an axis
 a ray hits a triangle exactly where the anchor's shadow lies in the triangle's shadow, so a ray cast is a point in
-triangle test in the plane. Three things make plain numpy fast enough for one face at a time (docs/collisions.md), so
+triangle test in the plane. Two things make plain numpy fast enough for one face at a time (docs/collisions.md), so
 nothing is compiled: the two views, along `UP` and along `OUT`, lie side by side in one plane and are worked on at once;
-cells of that plane know how far their triangles reach, so most anchors see that nothing lies ahead; and sorting the
-others by x leaves few pairs to be tested.
+and cells of that plane know their triangles and how far these reach (`cells`), so most anchors see that nothing lies
+ahead, and the others meet few triangles.
 """
 
 from __future__ import annotations
@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from emogen_core.correctives.collision.cells import CELL, Cells
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -25,8 +27,6 @@ X, UP, OUT = 0, 1, 2
 NONE = -1
 # The direction of each axis's negative ray: up for lips, inward for teeth.
 NEGATIVE = np.array([0, 1, -1])
-# Millimetres: about the size of the lip's triangles.
-CELL = 2.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,8 +54,8 @@ class Hits:
 
         ``sign`` is one for all or (A,).
         """
-        signs = np.broadcast_to(sign, self.anchors)
-        distance = self.distance * signs[self.anchor]
+        signs = np.full(self.anchors, sign)
+        distance = self.distance * signs.take(self.anchor)
         ahead = np.flatnonzero(distance > 0)
         order = ahead[np.lexsort((distance[ahead], self.anchor[ahead]))]
         return Ray(self, signs, order, np.bincount(self.anchor[order], minlength=self.anchors))
@@ -93,6 +93,21 @@ class Ray:
         return found
 
 
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """``A`` anchors in the view along the axis of each: (3, A) places (x, across, along), and (A,) their cells."""
+
+    place: NDArray[np.float64]
+    cell: NDArray[np.intp]
+
+    def __len__(self) -> int:
+        return len(self.cell)
+
+    def take(self, which: NDArray[np.intp]) -> Seen:
+        """Return some of them."""
+        return Seen(self.place.take(which, axis=1), self.cell.take(which))
+
+
 class Target:
     """The lower lip's patch of one face, ready to be hit.
 
@@ -102,78 +117,77 @@ class Target:
 
     def __init__(self, patch: NDArray[np.float64], triangles: NDArray[np.intp]) -> None:
         """Take (R, 3) vertices in millimetres and (F, 3) triangles, counter-clockwise seen from outside."""
-        corner = patch.T[:, triangles.T]
+        x, y, z = corner = patch.T.take(triangles.T, axis=1)
         self._faces = len(triangles)
-        self._left, self._right = float(patch[:, X].min()) - 1, float(patch[:, X].max()) + 1
+        self._left, self._right = float(x.min()) - 1, float(x.max()) + 1
         self._aside = self._right - self._left + CELL
         # [coordinate, corner] -> (2 F,)
-        self._view = np.concatenate([corner[[X, OUT, UP]], corner], axis=2)
+        self._view = np.empty((3, 3, 2 * self._faces))
+        self._view[0, :, : self._faces], self._view[1, :, : self._faces], self._view[2, :, : self._faces] = x, z, y
+        self._view[:, :, self._faces :] = corner
         self._view[0, :, self._faces :] += self._aside
         self._low, self._high = self._view.min(1), self._view.max(1)
-        # How far a triangle reaches along the negative ray, and that ray's direction.
-        self._sign = np.repeat(NEGATIVE[[UP, OUT]], self._faces)
-        self._reach = np.where(self._sign > 0, self._high[2], -self._low[2])
+        # How far a triangle reaches along the negative ray: up in the first view, inward in the second.
+        self._reach = np.concatenate([self._high[2, : self._faces], -self._low[2, self._faces :]])
 
-    def ahead(self, anchors: NDArray[np.float64], axis: NDArray[np.intp]) -> NDArray[np.intp]:
-        """Return which of (A, 3) anchors may meet the patch along the negative ray of (A,) axes; no others do."""
-        seen = self._seen(anchors, axis)
-        corner = self._low[:2].min(1, keepdims=True)
-        # Anchors and the bounds of triangles are rounded alike: an anchor within bounds is in a cell of that triangle.
-        low, high = (np.floor((bound[:2] - corner) / CELL).astype(np.intp) for bound in (self._low, self._high))
-        rows, columns = (high.max(1) + 1).tolist()
-        wide = high[1] - low[1] + 1
-        face, rank = _spread((high[0] - low[0] + 1) * wide)
-        row, column = np.divmod(rank, wide[face])
-        reach = np.full(rows * columns, -np.inf)
-        np.maximum.at(reach, (low[0, face] + row) * columns + low[1, face] + column, self._reach[face])
-        place = np.floor((seen[:2] - corner) / CELL)
-        near = np.flatnonzero(((place >= 0) & (place < [[rows], [columns]])).all(0))
-        at = place[:, near].astype(np.intp)
-        some: NDArray[np.intp] = near[seen[2, near] * NEGATIVE[axis[near]] < reach[at[0] * columns + at[1]]]
+    @cached_property
+    def _cells(self) -> Cells:
+        return Cells(self._low[:2], self._high[:2], self._reach)
+
+    def see(self, anchors: NDArray[np.float64], axis: Axes) -> Seen:
+        """Return (A, 3) anchors as seen along their axes, `UP` or `OUT`, one for all or (A,)."""
+        outward = np.equal(axis, OUT)
+        x, y, z = anchors.T
+        place = np.empty((3, len(anchors)))
+        # What is beside the patch stays beside it.
+        np.clip(x, self._left, self._right, out=place[0])
+        place[0] += self._aside * outward
+        place[1], place[2] = np.where(outward, y, z), np.where(outward, z, y)
+        return Seen(place, self._cells.of(place[:2]))
+
+    def ahead(self, seen: Seen) -> NDArray[np.intp]:
+        """Return which anchors may meet the patch along their negative rays; no others do."""
+        near = np.flatnonzero(seen.cell >= 0)
+        some: NDArray[np.intp] = near[self._along(seen).take(near) < self._cells.reach(seen.cell.take(near))]
         return some
 
-    def cross(self, anchors: NDArray[np.float64], axis: Axes, *, negative: bool = False) -> Hits:
-        """Return where the lines through (A, 3) anchors cross the patch, each along `UP` or `OUT`.
+    def cross(self, seen: Seen, *, negative: bool = False) -> Hits:
+        """Return where the lines through A anchors cross the patch, each along its axis.
 
-        ``axis`` is one for all or (A,); with ``negative`` only the crossings along the negative rays are certain to be
-        there.
+        With ``negative`` only the crossings along the negative rays are certain to be there.
         """
-        seen = self._seen(anchors, axis)
         anchor, face = self._pairs(seen, negative=negative)
-        flat = self._view[:2, :, face] - seen[:2, None, anchor]
-        (ax, bx, cx), (ay, by, cy) = flat
-        parts = np.stack([bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx])
+        place = seen.place.take(anchor, axis=1)
+        view = self._view.reshape(9, -1).take(face, axis=1).reshape(3, 3, -1)
+        (ax, bx, cx), (ay, by, cy) = view[:2] - place[:2, None]
+        parts = np.empty((3, len(face)))
+        parts[0] = bx * cy - by * cx
+        parts[1] = cx * ay - cy * ax
+        parts[2] = ax * by - ay * bx
         area = parts.sum(0)
         inside = np.flatnonzero(((parts * area).min(0) >= 0) & (area != 0))
         anchor, face, area = anchor[inside], face[inside], area[inside]
         shares = parts[:, inside] / area
-        distance = (shares * self._view[2][:, face]).sum(0) - seen[2, anchor]
+        distance = (shares * view[2][:, inside]).sum(0) - place[2, inside]
         outward = face >= self._faces
         # Seen along OUT the plane is (x, y), seen along UP (x, z): there a positive area is seen from behind.
-        return Hits(len(anchors), anchor, face - self._faces * outward, distance, (area > 0) == outward, shares.T)
+        return Hits(len(seen), anchor, face - self._faces * outward, distance, (area > 0) == outward, shares.T)
 
-    def _seen(self, anchors: NDArray[np.float64], axis: Axes) -> NDArray[np.float64]:
-        """Return (3, A) anchors in the views along their axes; what is beside the patch stays beside it."""
-        outward = np.broadcast_to(axis, len(anchors)) == OUT
-        x, y, z = anchors.T
-        beside = np.clip(x, self._left, self._right) + self._aside * outward
-        return np.stack([beside, np.where(outward, y, z), np.where(outward, z, y)])
-
-    def _pairs(self, seen: NDArray[np.float64], *, negative: bool) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return (anchor, face) pairs whose shadows may meet: a sweep along x, then bounds across and ahead."""
-        order = np.argsort(seen[0], kind="stable")
-        ranked = seen[:, order]
-        first = np.searchsorted(ranked[0], self._low[0], "left")
-        face, rank = _spread(np.searchsorted(ranked[0], self._high[0], "right") - first)
-        rank += first[face]
-        across = ranked[1, rank]
-        near = (self._low[1, face] <= across) & (across <= self._high[1, face])
+    def _pairs(self, seen: Seen, *, negative: bool) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Return (anchor, face) pairs whose shadows may meet: those in one cell, then bounds ahead and in the plane."""
+        known = np.flatnonzero(seen.cell >= 0)
+        height = self._along(seen).take(known) if negative else np.full(len(known), -np.inf)
+        point, face = self._cells.pairs(seen.cell.take(known), height)
+        anchor = known.take(point)
         if negative:
-            near &= ranked[2, rank] * self._sign[face] < self._reach[face]
-        return order[rank[near]], face[near]
+            ahead = np.flatnonzero(height.take(point) < self._reach.take(face))
+            anchor, face = anchor.take(ahead), face.take(ahead)
+        x, y = seen.place[0].take(anchor), seen.place[1].take(anchor)
+        near = (self._low[0].take(face) <= x) & (x <= self._high[0].take(face))
+        near &= (self._low[1].take(face) <= y) & (y <= self._high[1].take(face))
+        return anchor[near], face[near]
 
-
-def _spread(counts: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return every index as often as it counts, and the rank among its own: 0, 1, ..."""
-    index = np.repeat(np.arange(len(counts)), counts)
-    return index, np.arange(len(index)) - np.repeat(np.cumsum(counts) - counts, counts)
+    def _along(self, seen: Seen) -> NDArray[np.float64]:
+        """Return (A,) how far along its negative ray an anchor is: up in the first view, inward in the second."""
+        along: NDArray[np.float64] = np.where(seen.place[0] > self._right, -seen.place[2], seen.place[2])
+        return along

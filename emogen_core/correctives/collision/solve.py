@@ -13,7 +13,8 @@ other's correctives are disabled.
 Ours, all measured (docs/collisions.md): lengths in millimetres, because w1 has a unit; detection is repeated and each
 round solves for increments in [0, 1 - w], because solving anew oscillates; a margin; the best round is kept, so
 a correction never deepens; and of a symmetric face only the left half is sampled, every constraint being doubled by
-its mirror image, which halves the work and keeps the solution symmetric.
+its mirror image, which halves the work and keeps the solution symmetric. Where the linear model itself says that a
+round will leave a collision, only the anchors that met the lip are looked at after it; all are before a face is done.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from emogen_core.correctives.collision.bounded import box_least_squares
-from emogen_core.correctives.collision.detect import Detection, detect
+from emogen_core.correctives.collision.detect import TOLERANCE, Detection, detect
 from emogen_core.correctives.collision.model import ZONES, collision_model
 from emogen_core.correctives.collision.rays import OUT, UP
 from emogen_core.correctives.collision.regions import LIPS, TEETH
@@ -37,6 +38,8 @@ if TYPE_CHECKING:
     from emogen_core.correctives.collision.model import CollisionModel
     from emogen_core.face.rig import Rig
 
+    _System = tuple[slice, slice, NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
+
 DATA_WEIGHT = 0.98
 MARGIN = 0.3
 ROUNDS = 6
@@ -45,6 +48,7 @@ _COUNT = 2 * ZONES
 _OWN = {LIPS: slice(0, ZONES), TEETH: slice(ZONES, _COUNT)}
 _TWIN = np.array([3, 2, 1, 0, 7, 6, 5, 4])
 _ALTERNATIONS = 8
+_STILL = 1e-6
 # A step that moves no lip by a hundredth of a millimetre: the correctives are at their bounds.
 _NOTHING = 1e-3
 
@@ -104,30 +108,35 @@ class FaceSolver:
         self.patch, self.anchors = self.model.evaluate(weights)
         self.before = self.detect(np.zeros(_COUNT))
 
-    def detect(self, weights: NDArray[np.float64]) -> Detection:
-        """Detect with the collision correctives at (8,) weights."""
+    def detect(self, weights: NDArray[np.float64], among: NDArray[np.intp] | None = None) -> Detection:
+        """Detect with the collision correctives at (8,) weights; ``among`` as in `detect`."""
         patch, anchors = self.patch, self.anchors
         if weights.any():
             patch = patch + _sum(weights, self.model.unit_patch)
             anchors = anchors + _sum(weights, self.model.unit_anchors)
-        return detect(anchors, self.model.kind, patch, self.model.triangles)
+        return detect(anchors, self.model.kind, patch, self.model.triangles, among=among)
 
     def solve(self) -> tuple[NDArray[np.float64], float, int]:
         """Return the (8,) weights, the depth they leave, and the rounds it took."""
-        weights = best = np.zeros(_COUNT)
-        found, depth, rounds = self.before, self.before.depth, 0
+        weights, found, met, rounds = np.zeros(_COUNT), self.before, self.before.met, 0
+        best, depth, sure = weights, found.depth, True
         while found.collides and rounds < ROUNDS:
-            step = increments(self.model, found, weights, mirrored=self.symmetric)
+            step, left = increments(self.model, found, weights, mirrored=self.symmetric)
             if step.max() < _NOTHING:
                 break
-            weights = weights + step
             # Judged as stored: in single precision.
-            weights = np.minimum(weights, 1).astype(np.float32).astype(np.float64)
-            found = self.detect(weights)
+            weights = np.minimum(weights + step, 1).astype(np.float32).astype(np.float64)
             rounds += 1
+            quick = left > TOLERANCE and rounds < ROUNDS
+            found = self.detect(weights, met if quick else None)
+            if quick and not found.collides:
+                quick, found = False, self.detect(weights)
+            met = met if quick else np.union1d(met, found.met)
             if found.depth < depth:
-                best, depth = weights, found.depth
-        return best, depth, rounds
+                best, depth, sure = weights, found.depth, not quick
+        depth = depth if sure else self.detect(best).depth
+        # What was seen among few anchors only may not hold.
+        return (best, depth, rounds) if depth <= self.before.depth else (np.zeros(_COUNT), self.before.depth, rounds)
 
 
 def _sum(weights: NDArray[np.float64], offsets: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -136,8 +145,8 @@ def _sum(weights: NDArray[np.float64], offsets: NDArray[np.float64]) -> NDArray[
 
 def increments(
     model: CollisionModel, found: Detection, weights: NDArray[np.float64], *, mirrored: bool = False
-) -> NDArray[np.float64]:
-    """Return the (8,) increments in [0, 1 - weights] that minimise eq. 5 for the contacts found.
+) -> tuple[NDArray[np.float64], float]:
+    """Return the (8,) increments in [0, 1 - weights] that minimise eq. 5, and the depth that they should leave.
 
     ``mirrored`` adds the mirror image of every constraint.
     """
@@ -146,13 +155,31 @@ def increments(
     if mirrored:
         parts = [(kind, np.concatenate([a, a[:, _TWIN]]), np.concatenate([b, b])) for kind, a, b in parts]
     ridge = (1 - DATA_WEIGHT) * sum(len(b) for _, _, b in parts)
+    step = _alternated([_normal_equations(kind, a, b, ridge) for kind, a, b in parts], 1 - weights)
+    step = (step + step[_TWIN]) / 2 if mirrored else step
+    return step, max((float((b - MARGIN - a @ step).max()) for _, a, b in parts), default=0.0)
+
+
+def _alternated(systems: list[_System], room: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the (8,) solution within [0, room] of each type's equations, the other's share taken as it is."""
     step = np.zeros(_COUNT)
-    for _ in range(1 if len(parts) == 1 else _ALTERNATIONS):
-        for kind, jacobian, b in parts:
-            own, other = _OWN[kind], _OWN[1 - kind]
-            rest = b - jacobian[:, other] @ step[other]
-            step[own] = box_least_squares(jacobian[:, own], rest, DATA_WEIGHT, ridge, 1 - weights[own])
-    return (step + step[_TWIN]) / 2 if mirrored else step
+    for own, _, matrix, _, goal in systems:
+        step[own] = np.linalg.solve(matrix, goal)
+    step = np.clip(step, 0, room)
+    for _ in range(_ALTERNATIONS if len(systems) > 1 else 1):
+        last = step.copy()
+        for own, other, matrix, shared, goal in systems:
+            step[own] = box_least_squares(matrix, goal - shared @ step[other], room[own], step[own])
+        if np.abs(step - last).max() < _STILL:
+            break
+    return step
+
+
+def _normal_equations(kind: int, jacobian: NDArray[np.float64], b: NDArray[np.float64], ridge: float) -> _System:
+    """Return of one type: its correctives, the other's, matrix, what a unit of the other's does to the goal, goal."""
+    own, other = _OWN[kind], _OWN[1 - kind]
+    weighted = DATA_WEIGHT * jacobian[:, own].T
+    return own, other, weighted @ jacobian[:, own] + ridge * np.eye(ZONES), weighted @ jacobian[:, other], weighted @ b
 
 
 def constraints(

@@ -73,5 +73,5 @@ void main() {
     ray = view;
     facing = n;
 #endif
-    gl_Position = P * V * vec4(position, 1.0);
+    gl_Position = P * (V * vec4(position, 1.0));
 }

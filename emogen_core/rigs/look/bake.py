@@ -13,7 +13,7 @@ import numpy as np
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 
-from emogen_core.rendering.surface import NormalField
+from emogen_core.rendering.normals import NormalField
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

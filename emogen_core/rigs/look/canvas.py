@@ -14,8 +14,8 @@ import numpy as np
 from scipy.interpolate import LinearNDInterpolator
 from scipy.ndimage import distance_transform_edt, map_coordinates
 
+from emogen_core.rendering.normals import NormalField
 from emogen_core.rendering.raster import rasterise
-from emogen_core.rendering.surface import NormalField
 from emogen_core.rigs.look.atlas import SKIN_PARTS
 
 if TYPE_CHECKING:

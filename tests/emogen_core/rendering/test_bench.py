@@ -25,7 +25,8 @@ def test_the_report_is_complete_and_can_be_printed():
     assert 0 < times["min"] <= times["median"] <= times["p95"] <= times["max"]
     assert report["png_bytes"] > 1000
     assert report["identity"] == "male"
-    assert set(report["load"]) == {"before", "after"}
+    assert set(report["load"]) == set(report["yardstick_ms"]) == {"before", "after"}
+    assert min(report["yardstick_ms"].values()) > 0
 
 
 @pytest.mark.parametrize("argument", ["faces", "size", "rounds", "workers"])

@@ -14,9 +14,10 @@ from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.face.evaluate import vertices
 from emogen_core.rendering.camera import frame_head
 from emogen_core.rendering.look import HAIR_DEPTH
+from emogen_core.rendering.normals import NormalField
 from emogen_core.rendering.plain import plain_look
 from emogen_core.rendering.setup import look_for
-from emogen_core.rendering.surface import COLUMNS, NormalField, Surface
+from emogen_core.rendering.surface import COLUMNS, Surface
 
 from .ball import ball_rig
 

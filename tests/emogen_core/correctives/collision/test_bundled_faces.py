@@ -54,7 +54,8 @@ def test_neutrals_show_no_teeth(identity):
     teeth = anchors.sample(mesh[None])[0][anchors.kind == TEETH]
     skin = RIG.triangles[: RIG.parts["mouth"][1]]
     near = skin[np.abs(mesh[skin][:, :, 1].mean(1) - teeth[:, 1].mean()) < 30]
-    ahead = Target(mesh, near).cross(teeth, OUT).along(1)
+    skin_ahead = Target(mesh, near)
+    ahead = skin_ahead.cross(skin_ahead.see(teeth, OUT)).along(1)
     assert (ahead.count == 0).mean() < SLIT
 
 
@@ -127,6 +128,30 @@ def test_detection_is_the_slow_one():
             assert found.depth == pytest.approx([pair[3] for pair in wanted])
 
 
+def test_a_look_at_some_anchors_finds_what_a_look_at_all_finds_of_them():
+    model = collision_model(RIG, "female")
+    for row in np.flatnonzero(faces()[1].collided.any(1))[:8]:
+        patch, anchors = model.evaluate(faces()[0][row])
+        full = detect(anchors, model.kind, patch, model.triangles)
+        quick = detect(anchors, model.kind, patch, model.triangles, among=full.met)
+        assert quick.met.tolist() == full.met.tolist()
+        assert quick.depth >= full.depth
+        for seen, wanted in ((quick.lips, full.lips), (quick.teeth, full.teeth)):
+            assert set(seen.anchor) >= set(wanted.anchor)
+
+
+@pytest.mark.parametrize("identity", ["female", "caucasian-female-young"])
+def test_the_depth_that_is_told_is_that_of_all_anchors(identity):
+    """Rounds in between look at few anchors; what is kept is judged by all of them."""
+    weights, result = faces(identity)
+    model = collision_model(RIG, identity)
+    assert (result.rounds > 1).sum() >= 3
+    for row in np.flatnonzero(result.rounds):
+        patch, anchors = model.evaluate(np.append(weights[row, :-8], result.weights[row]))
+        found = detect(anchors, model.kind, patch, model.triangles)
+        assert found.depth == pytest.approx(result.depth_after[row], abs=1e-3)
+
+
 def test_eqs_3_and_4_are_what_a_unit_of_a_corrective_opens():
     model = collision_model(RIG, "female")
     weights, result = faces()
@@ -152,7 +177,7 @@ def test_increments_minimise_eq_5():
     patch, anchors = model.evaluate(weights[row])
     found = detect(anchors, model.kind, patch, model.triangles)
     jacobian, b = constraints(model, found.lips, UP)
-    step = increments(model, found, np.zeros(8))
+    step, _ = increments(model, found, np.zeros(8))
 
     def cost(w):
         return DATA_WEIGHT * ((jacobian[:, :4] @ w - b) ** 2).sum() + (1 - DATA_WEIGHT) * len(b) * (w**2).sum()

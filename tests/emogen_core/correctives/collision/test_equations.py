@@ -87,8 +87,9 @@ def test_eq_5_where_one_type_collides(kind):
     before = np.linspace(0, 0.6, 8)
     for detected in faces[:4]:
         a, b = a_and_b((detected.lips, detected.teeth)[kind], axis)
-        step = increments(MODEL, detected, before)
+        step, left = increments(MODEL, detected, before)
         assert step[own] == pytest.approx(eq_5(a[:, own], b, 1 - before[own], len(b)), abs=1e-4)
+        assert left == pytest.approx((b - MARGIN - a @ step).max(), abs=1e-6)
         assert not np.delete(step, np.r_[own]).any()
 
 
@@ -102,11 +103,13 @@ def test_eq_5_where_both_collide_each_type_moves_only_its_own_and_counts_the_oth
         detected = Detection(own_lips, own_teeth, (1.0, 1.0))
         lips, teeth = a_and_b(detected.lips, UP), a_and_b(detected.teeth, OUT)
         count = len(lips[1]) + len(teeth[1])
-        step = increments(MODEL, detected, np.zeros(8))
+        step, _ = increments(MODEL, detected, np.zeros(8))
         for (a, b), own, other in ((lips, slice(0, 4), slice(4, 8)), (teeth, slice(4, 8), slice(0, 4))):
             wanted = eq_5(a[:, own], b - a[:, other] @ step[other], np.ones(4), count)
             assert step[own] == pytest.approx(wanted, abs=2e-3)
 
 
 def test_nothing_found_asks_for_nothing():
-    assert not increments(MODEL, Detection(NOTHING, NOTHING, (0.0, 0.0)), np.zeros(8)).any()
+    step, left = increments(MODEL, Detection(NOTHING, NOTHING, (0.0, 0.0)), np.zeros(8))
+    assert not step.any()
+    assert left == 0
