@@ -1,4 +1,4 @@
-"""Units of the lower face mended: smiles that raise the cheeks and show the upper teeth, a jaw that takes the tongue along.
+"""Units of the lower face mended: smiles that raise cheeks and show upper teeth, a jaw that takes the tongue along.
 
 No unit moves the cheek forward, but a smile pushes it up into a ball with a furrow on its inner side (Ekman, Friesen &
 Hager 2002, action units 6 and 12). Offsets are those of the left or the only member on the base mesh, millimetres;
@@ -31,7 +31,9 @@ _BULGE = (0.30, 0.45, 1.0)
 # How far the middles of the upper and of the lower lip come up in an open smile, millimetres.
 _LIP_RISES = (1.0, 1.8)
 # On an open jaw the tongue lies so much lower and further back, and the upper lip so much higher, millimetres.
-_TONGUE, _LIP_LIFT = (20.0, 6.0), 5.0
+_LAID, _LIP_LIFT = (14.0, 6.0), 5.0
+# A tongue that comes out rises by this.
+_RAISED = 6.0
 
 
 def cheek_ball(canvas: Canvas, fullness: float, furrow: float) -> Offsets:
@@ -64,18 +66,26 @@ def opened_jaw(_source: Source, canvas: Canvas, offsets: Offsets) -> Offsets:
 
     The unit leaves the lip over the upper teeth, and its tongue fills the mouth.
     """
-    opened = offsets + lip_lift(canvas)
-    tongue = np.unique(canvas.mesh.quads["helper-tongue"])
-    front = smoothstep(canvas.points[tongue, 2], -75, -30)
-    opened[tongue, 1] -= _TONGUE[0] * front
-    opened[tongue, 2] -= _TONGUE[1] * front
-    return opened
+    return offsets + lip_lift(canvas) + _laid_tongue(canvas, _LAID)
+
+
+def tongue_out(_source: Source, canvas: Canvas, offsets: Offsets) -> Offsets:
+    """Lift the tongue on its way out: it comes from where an open jaw lays it, and has to clear the lower teeth."""
+    return offsets + _laid_tongue(canvas, (-_RAISED, 0.0))
 
 
 def lip_lift(canvas: Canvas) -> Offsets:
     """Return (19158, 3) offsets by which an open jaw draws the upper lip up."""
     lip = _flesh(canvas) * canvas.spot((0, -63), (15, 9)) * smoothstep(canvas.points[:, 2], 12, 20) * (1 - canvas.low)
     return _LIP_LIFT * np.stack([0 * lip, lip, -0.2 * lip], 1)
+
+
+def _laid_tongue(canvas: Canvas, way: tuple[float, float]) -> Offsets:
+    """Return (19158, 3) offsets that lay the tongue, but for its root, so much lower and further back."""
+    laid = np.zeros_like(canvas.points)
+    tongue = np.unique(canvas.mesh.quads["helper-tongue"])
+    laid[tongue, 1:] = -smoothstep(canvas.points[tongue, 2], -75, -30)[:, None] * way
+    return laid
 
 
 def _flesh(canvas: Canvas) -> NDArray[np.float64]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from emogen_core.rigs.canvas import Canvas, smoothstep, unit
-from emogen_core.rigs.mouth_units import cheek_ball, opened_jaw, smile_lips
+from emogen_core.rigs.mouth_units import cheek_ball, opened_jaw, smile_lips, tongue_out
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -142,4 +142,5 @@ _REPAIRS: Mapping[str, Repair] = {
     "upperLipElevate": _nose_base,
     "lowerLipRetract": _nose_base,
     "neckTighten": _neck,
+    "tongueOut": tongue_out,
 }
