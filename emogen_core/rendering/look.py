@@ -199,7 +199,8 @@ def style_of(name: str, appearance: Appearance, tone: tuple[float, float, float]
         bake=name,
         tone=tone,
         lash=(lash[0], lash[1], lash[2]),
-        wrinkles=round(0.62 + 0.38 * look.lines, 4),
+        # Young skin folds nearly as deeply as old skin while it moves; on deep skin the same fold shows less.
+        wrinkles=round(min(1.0, 0.84 + 0.16 * look.lines + 0.16 * look.skin_depth), 4),
         lines=round(0.30 * look.lines, 4),
         shine=round(1.0 - 0.20 * look.lines, 4),
         appearance=appearance,

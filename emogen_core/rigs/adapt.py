@@ -16,7 +16,7 @@ from emogen_core.correctives.collision.regions import has_regions, judge_anchors
 from emogen_core.face.rig import Adjustment
 from emogen_core.rigs.candidates import Deriver, Pair
 from emogen_core.rigs.collision_bake import settled
-from emogen_core.rigs.fitting import Head, cleared_neutral, fitted_lids, gene_offsets, kept_shut
+from emogen_core.rigs.fitting import Head, cleared_neutral, fitted_lids, gene_offsets, kept_shut, sealed_shapes
 from emogen_core.rigs.lips import close_slits, seal_lips, visible_teeth
 from emogen_core.rigs.mending import eased_lips, mended_shapes
 from emogen_core.rigs.rest import BROWS, corners_lifted, rest_pose
@@ -68,7 +68,7 @@ class Fitter:
         return replace(head, neutral=self.freed(seal_lips(self._topology, low, level)))
 
     def freed(self, mesh: Mesh) -> Mesh:
-        """Return a rested neutral (N, 3) in which lips and teeth neither collide nor let a tooth be seen."""
+        """Return a sealed (N, 3) face in which lips and teeth neither collide nor let a tooth be seen."""
         if self._anchors is None:
             return mesh
         low, target = self.space.low.astype(np.float64), target_faces(self.rig)
@@ -78,8 +78,14 @@ class Fitter:
                 break
         return mesh
 
+    def shut(self, neutral: Mesh, core: Meshes) -> Meshes:
+        """Return the core shapes with every gene that leaves the mouth closed keeping it shut on a (N, 3) head."""
+        low = self.space.low.astype(np.float64)
+        return sealed_shapes(neutral, core, lambda mesh: self.freed(seal_lips(self._topology, low, mesh)))
+
     def _adjustment(self, head: Head) -> Adjustment:
         worn = worn_shapes(self._topology, self._deriver, self._pairs, head, self._core)
+        worn |= self.shut(head.neutral, {name: worn[name] for name in self._core})
         names = self.rig.shape_names
         changed = {name: offsets - self.rig.offsets[names.index(name)] for name, offsets in worn.items()}
         changed = {name: change for name, change in changed.items() if np.abs(change).max() > _SEEN}

@@ -22,7 +22,9 @@ from emogen_core.rigs.gene_table import RECIPES
 from emogen_core.rigs.head_mesh import build_geometry
 from emogen_core.rigs.identities import IDENTITIES
 from emogen_core.rigs.identity_space import bake_space
+from emogen_core.rigs.lips import seal_lips
 from emogen_core.rigs.mending import mended_shapes
+from emogen_core.rigs.mouth_units import lip_lift
 from emogen_core.rigs.rest import BROWS
 from emogen_core.rigs.source import open_source
 from emogen_core.rigs.units import core_shapes
@@ -34,6 +36,7 @@ if TYPE_CHECKING:
 
     from emogen_core.face.space import IdentitySpace
     from emogen_core.rigs.canvas import Canvas
+    from emogen_core.rigs.fitting import Mesh, Meshes
     from emogen_core.rigs.head_mesh import HeadGeometry
     from emogen_core.rigs.source import Source
 
@@ -65,7 +68,7 @@ def build_rig(source: Path, out_path: Path, space_path: Path) -> Rig:
     low, brows = space.low.astype(np.float64), brow_vertices(geometry, geometry.positions)
     units = core_shapes(data, geometry, canvas)
     default = rested(geometry, low, brows, Head(*space.head(IDENTITIES[DEFAULT])), gene_offsets(units))
-    raw = sealed_shapes(geometry, low, default.neutral, units)
+    raw = sealed_shapes(default.neutral, units, lambda mesh: seal_lips(geometry, low, mesh))
     deriver = Deriver(geometry, _shut(data, geometry, canvas))
     core = mended_shapes(deriver.mender, default, raw | fitted_lids(geometry, default, raw))
     genes = gene_offsets(core)
@@ -90,8 +93,16 @@ def build_rig(source: Path, out_path: Path, space_path: Path) -> Rig:
     derived_anew = tuple((p.combination.name, p.method) for p in pairs if moves_lids(p.parents))
     space = save_space(replace(space, lid_correctives=derived_anew), space_path)
     # Heads are fitted to the rig as a reader of the file gets it, as at run time.
-    freed = Fitter(rig, space).freed(default.neutral).astype(np.float32)
-    return save_rig(_with_presets(save_rig(replace(rig, neutrals={DEFAULT: freed}), out_path), space), out_path)
+    shut = _shut_mouth(Fitter(rig, space), core, default.neutral)
+    return save_rig(_with_presets(save_rig(shut, out_path), space), out_path)
+
+
+def _shut_mouth(fitter: Fitter, core: Meshes, neutral: Mesh) -> Rig:
+    """Return a fitter's rig whose default head, at rest and with genes that leave the mouth closed, shows no tooth."""
+    freed = fitter.freed(neutral)
+    offsets = fitter.rig.offsets.copy()
+    offsets[: len(core)] = np.stack(list(fitter.shut(freed, core).values()))
+    return replace(fitter.rig, neutrals={DEFAULT: freed.astype(np.float32)}, offsets=offsets)
 
 
 def _with_presets(rig: Rig, space: IdentitySpace) -> Rig:
@@ -106,7 +117,8 @@ def _with_presets(rig: Rig, space: IdentitySpace) -> Rig:
 
 def _shut(source: Source, geometry: HeadGeometry, canvas: Canvas) -> NDArray[np.float64]:
     scale = next(recipe.scale for recipe in RECIPES if recipe.name == "jawOpen")
-    return scale * geometry.offsets(canvas.symmetric(unit(source, "ak:mouthClose")))
+    closing = canvas.symmetric(unit(source, "ak:mouthClose")) - lip_lift(canvas)
+    return scale * geometry.offsets(closing)
 
 
 def _inactive() -> frozenset[str]:

@@ -80,6 +80,8 @@ BARS = (
     Bar("mm2 of the eyeball seen at full blink", ("head", "visible_at_blink_mm2"), "at most", 0.0),
     Bar("mm2 of it seen at full blink with another gene", ("head", "visible_worst_mm2"), "at most", 0.5),
     Bar("mm2 of teeth seen at rest", ("head", "teeth_mm2"), "at most", 0.1),
+    Bar("mm2 of teeth seen with a gene that leaves the mouth shut", ("head", "shut_teeth_mm2"), "at most", 0.5),
+    Bar("mm2 of teeth seen in an emotion with a closed mouth", ("head", "closed_emotion_teeth_mm2"), "at most", 6.0),
     Bar("mm of the neutral's collision", ("head", "collision_mm"), "at most", 0.1),
 )
 

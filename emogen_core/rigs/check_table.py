@@ -14,7 +14,8 @@ _HEADER = (
 
 _HEAD_HEADER = (
     "identity", "mm2 of eyeball at full blink: alone / worst with a gene", "mm through half-shut lids",
-    "iris under lids: upper / lower", "brow mm", "teeth mm2", "lip gap mm", "corners mm",
+    "iris under lids: upper / lower", "brow mm", "teeth mm2: at rest / shut genes / closed emotions", "lip gap mm",
+    "corners mm",
 )  # fmt: skip
 
 
@@ -65,7 +66,8 @@ def _heads(report: dict[str, Any]) -> str:
 def _head_row(identity: str, found: dict[str, Any]) -> tuple[str, ...]:
     blink = f"{found['visible_at_blink_mm2']:.2f} / {found['visible_worst_mm2']:.2f}"
     covers = f"{found['upper_lid_cover']:.2f} / {found['lower_lid_cover']:.2f}"
-    lips = (f"{found['teeth_mm2']:.2f}", f"{found['lip_gap_mm']:.2f}", f"{found['corner_height_mm']:.1f}")
+    teeth = " / ".join(f"{found[k]:.2f}" for k in ("teeth_mm2", "shut_teeth_mm2", "closed_emotion_teeth_mm2"))
+    lips = (teeth, f"{found['lip_gap_mm']:.2f}", f"{found['corner_height_mm']:.1f}")
     return f"`{identity}`", blink, f"{found['poke_mm']:.2f}", covers, f"{found['brow_height_mm']:.1f}", *lips
 
 

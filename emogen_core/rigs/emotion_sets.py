@@ -48,7 +48,7 @@ EMOTION_SETS: Mapping[str, EmotionSet] = {
         lidsSlit=0.25,
     ),
     "angry": _emotion(
-        "4 5 7 17 24",
+        "4 5 7 24",
         "4+5+7+24",
         "4+5+7+10+22+23+25, 4+5+7+17+23, 4+5+7+17+24, 4+5+7+23, 4+5+7+24 and variants",
         browDown=1.0,
@@ -56,9 +56,6 @@ EMOTION_SETS: Mapping[str, EmotionSet] = {
         lidUpperRaise=0.3,
         lidsTight=1.0,
         mouthPress=1.0,
-        lipRollLower=0.2,
-        lipRollUpper=0.1,
-        chinRaise=0.2,
         nostrilFlare=0.7,
     ),
     "fearful": _emotion(

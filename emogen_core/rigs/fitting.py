@@ -1,8 +1,9 @@
 """Shapes fitted to a head: lips that stay shut, lids that close and do not sink into the eyeball.
 
 Units were made for one head, and their linear paths know nothing of what lies below the skin. Shapes that keep the
-mouth shut are sealed once, on the default head. What moves lids is fitted on every head: closing is scaled to it
-(`lids.py`), and vertices that would enter the eyeball on the way to weight 1 are pushed out.
+mouth shut are sealed on every head: where lips only touched each other, or a tooth, collision correction would part
+them, and a mouth that should be shut would show its teeth. What moves lids is fitted on every head, too: closing is
+scaled to it (`lids.py`), and vertices that would enter the eyeball on the way to weight 1 are pushed out.
 """
 
 from __future__ import annotations
@@ -18,10 +19,9 @@ from emogen_core.rigs.canvas import smoothstep
 from emogen_core.rigs.eyeballs import CORNEA_BULGE, CORNEA_DEGREES, GAZE_DEGREES, RADIUS
 from emogen_core.rigs.gene_table import RECIPES
 from emogen_core.rigs.lids import EDGE, closing_factor, closing_scale, lid_rings
-from emogen_core.rigs.lips import seal_lips
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from numpy.typing import NDArray
 
@@ -38,6 +38,8 @@ SHUT_GENES = (
 # Genes that move lids over the eyeball.
 LID_GENES = ("lidsClose", "lidsTight", "lidsSlit", "lidUpperRaise", "gazeUp", "gazeDown", "cheekRaise", "browDown")
 CLOSING = "lidsClose"
+# What comes with a gene in a felt smile, and would push the lid into the eyeball with it.
+_COMPANY = {"cheekRaise": {"lidsTight": 0.6, "mouthSmile": 0.5, "mouthSmileOpen": 1.0}}
 # Skin stays this share of the radius outside the eyeball, so that flat triangles clear it too.
 EYEBALL_MARGIN = 0.022
 # The very edge of a lid touches it.
@@ -68,13 +70,18 @@ def gene_offsets(core: Meshes, genes: tuple[str, ...] = tuple(_MEMBERS)) -> Mesh
     return {name: sum((core[m] for m in listed[1:]), core[listed[0]]) for name, listed in members.items()}
 
 
-def sealed_shapes(geometry: Topology, low: NDArray[np.float64], neutral: Mesh, core: Meshes) -> Meshes:
-    """Return the core shapes with the lips of `SHUT_GENES` touching at weight 1."""
-    fitted, genes = dict(core), gene_offsets(core)
+def sealed_shapes(neutral: Mesh, core: Meshes, seal: Callable[[Mesh], Mesh]) -> Meshes:
+    """Return the core shapes under which each of `SHUT_GENES` keeps the mouth shut at weight 1.
+
+    Args:
+        neutral: (N, 3) the head at rest.
+        core: core shape -> (N, 3) offsets.
+        seal: takes an (N, 3) face with a closed mouth and closes what is open of it.
+    """
+    fitted, genes = dict(core), gene_offsets(core, SHUT_GENES)
     left = neutral[:, :1] > 0
-    for gene in SHUT_GENES:
-        change = seal_lips(geometry, low, neutral + genes[gene]) - neutral - genes[gene]
-        _spread(fitted, gene, change, left, neutral)
+    for gene, offsets in genes.items():
+        _spread(fitted, gene, seal(neutral + offsets) - neutral - offsets, left, neutral)
     return fitted
 
 
@@ -82,10 +89,12 @@ def fitted_lids(geometry: Topology, head: Head, core: Meshes) -> Meshes:
     """Return the core shapes that move lids, fitted to a head whose skin is clear of its eyeballs."""
     closing = closed_lids(geometry, head, core)
     fitted = {member: core[member] for gene in LID_GENES for member in _MEMBERS[gene]} | closing
-    genes = gene_offsets(fitted, LID_GENES)
+    genes = gene_offsets(core | fitted)
     left = head.neutral[:, :1] > 0
     for gene in LID_GENES:
-        _spread(fitted, gene, cleared(geometry, head, genes[gene]) - genes[gene], left, head.neutral)
+        company = (share * genes[other] for other, share in _COMPANY.get(gene, {}).items())
+        together = sum(company, genes[gene])
+        _spread(fitted, gene, cleared(geometry, head, together) - together, left, head.neutral)
     return fitted
 
 

@@ -1,4 +1,7 @@
-"""Checks a head: that it rests in a neutral pose, that its lids close whatever else they do, that its lips meet."""
+"""Checks a head: that it rests in a neutral pose, that its lids close whatever else they do, that its lips meet.
+
+A mouth is shut where genes leave it so at weight 1, and in the emotions that are shown with a closed mouth.
+"""
 
 from __future__ import annotations
 
@@ -9,10 +12,11 @@ import numpy as np
 
 from emogen_core.correctives.collision.judge import dense_depth
 from emogen_core.correctives.collision.regions import has_regions
-from emogen_core.correctives.pipeline import shape_weights
+from emogen_core.correctives.pipeline import face_weights, shape_weights
 from emogen_core.face.evaluate import vertices
 from emogen_core.rigs.eyeballs import RADIUS
 from emogen_core.rigs.features import brow_height, corner_height, lid_covers
+from emogen_core.rigs.fitting import SHUT_GENES
 from emogen_core.rigs.heights import highest, over
 from emogen_core.rigs.lids import EDGE, eye_depths, lid_rings, turned_below, visible_area
 from emogen_core.rigs.lips import lip_gaps, teeth_area
@@ -32,6 +36,8 @@ WITH_BLINK = (
     "gazeDown+lidsSlit", "cheekRaise+lidsTight", "gazeLeft", "gazeRight",
 )  # fmt: skip
 ON_THE_WAY = ("", "gazeDown", "gazeUp", "lidsTight", "lidsSlit")
+# Emotion sets whose prototype has its mouth closed.
+CLOSED_MOUTHS = ("sad", "angry")
 HALF_SHUT = (0.25, 0.5, 0.75)
 BELOW = 15.0
 
@@ -58,6 +64,12 @@ class _Worn:
         meshes: Mesh = vertices(self.rig, self.identity, shape_weights(self.rig, genes)).astype(np.float64)
         return meshes
 
+    def shown(self, genes: NDArray[np.float64]) -> Mesh:
+        """Return the (N, 3) face of (G,) genes as it is shown, collisions corrected."""
+        weights = face_weights(self.rig, self.identity, genes[np.newaxis]).weights
+        mesh: Mesh = vertices(self.rig, self.identity, weights)[0].astype(np.float64)
+        return mesh
+
 
 def check_head(rig: Rig, identity: str, low: NDArray[np.float64]) -> dict[str, Any]:
     """Measure one head of a rig.
@@ -72,7 +84,9 @@ def check_head(rig: Rig, identity: str, low: NDArray[np.float64]) -> dict[str, A
         of the views from the front and from 15 degrees below), the first and the largest of these; ``poke_mm``, how far
         the eyeball comes through the lids on the way; the shares of the iris that the lids cover at rest; brows over
         the eyes and corners over the middle of the mouth, millimetres; ``teeth_mm2`` that show and the widest
-        ``lip_gap_mm`` at rest, both where lips lie above each other; and how deep the neutral collides.
+        ``lip_gap_mm`` at rest, both where lips lie above each other; under ``shut_teeth`` what shows of the teeth with
+        each gene and in each emotion that has the mouth closed, and the most of the genes and of the emotions; and how
+        deep the neutral collides.
 
     Raises:
         InvalidInputError: an unknown identity, or a rig without the genes that are looked at.
@@ -83,6 +97,7 @@ def check_head(rig: Rig, identity: str, low: NDArray[np.float64]) -> dict[str, A
     upper, lower = lid_covers(topology, neutral, worn.eye_centre)
     gap = lip_gaps(topology, low, neutral)[0]
     visible = _visible(worn)
+    shut = _shut_teeth(worn)
     nothing = np.zeros((1, len(rig.shape_names)), np.float32)
     return {
         "identity": identity,
@@ -95,6 +110,9 @@ def check_head(rig: Rig, identity: str, low: NDArray[np.float64]) -> dict[str, A
         "brow_height_mm": round(brow_height(neutral, rig.regions[BROWS], worn.eye_centre), 2),
         "corner_height_mm": round(corner_height(topology, low, neutral), 2),
         "teeth_mm2": round(teeth_area(topology, neutral), 3),
+        "shut_teeth": shut,
+        "shut_teeth_mm2": max((area for name, area in shut.items() if name not in CLOSED_MOUTHS), default=0.0),
+        "closed_emotion_teeth_mm2": max((shut.get(name, 0.0) for name in CLOSED_MOUTHS), default=0.0),
         "lip_gap_mm": round(float(gap[np.isfinite(gap)].max(initial=0)), 3),
         "collision_mm": round(float(dense_depth(rig, identity, nothing).max()), 3) if has_regions(rig) else 0.0,
     }
@@ -113,6 +131,14 @@ def _visible(worn: _Worn) -> dict[str, float]:
         areas = (visible_area(worn.topology, mesh, worn.eye_centre, view, _PITCH) for view in (0.0, BELOW))
         found["+".join(filter(None, (_CLOSING, names)))] = round(max(areas), 3)
     return found
+
+
+def _shut_teeth(worn: _Worn) -> dict[str, float]:
+    """Return gene or emotion -> square millimetres of teeth seen in a mouth that it leaves closed."""
+    rig = worn.rig
+    alone = {name: np.eye(len(rig.genes))[rig.gene_indices((name,))[0]] for name in SHUT_GENES}
+    posed = alone | {name: rig.emotion_genes(name) for name in CLOSED_MOUTHS}
+    return {name: round(teeth_area(worn.topology, worn.shown(genes)), 3) for name, genes in posed.items()}
 
 
 def _poke(worn: _Worn) -> float:

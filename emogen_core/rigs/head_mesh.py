@@ -41,6 +41,9 @@ _OUTLINE_FACET, _STEP_LEAVES = 0.20, 0.25
 # never seen.
 _SLANT, _BACK, _OUTLINE_BOTTOM = 0.45, -0.45, -115.0
 
+# The tongue's tip, which leaves the mouth, is rounded as skin is.
+_TIP_OF_TONGUE = 2.0
+
 _CROP_BOTTOM, _CROP_SIDE = 5.05, 1.75
 _SOCKET_RINGS = 3
 _ISLANDS = {3116: "skin", 470: "skin", 398: "mouth", 293: "sockets"}
@@ -177,7 +180,10 @@ def _surface(mesh: BaseMesh) -> tuple[Refined, dict[str, tuple[int, int]]]:
     left = np.flatnonzero(mesh.vertices[quads].mean(1)[:, 0] > 0)
     right_quads, right_uv = _twins(mesh, quads, uv, left)
     positions = mesh.canonical()
-    wanted = _levels(quads[left], right_quads, positions) * (label[left] == PARTS.index("skin"))
+    skin, tongue = (label[left] == PARTS.index(part) for part in ("skin", "tongue"))
+    tip = tongue & (positions[quads[left], 2].mean(1) > _TIP_OF_TONGUE)
+    levels = _levels(quads[left], right_quads, positions)
+    wanted = levels * skin + np.minimum(levels, 1) * tip
     coordinates = mesh.uv[uv[left]], mesh.uv[right_uv]
     refined = refine(quads[left], right_quads, coordinates, wanted, positions)
     part = label[left][refined.quad]

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 # Lips that just touch would collide in every second rounding.
 CLEARANCE = 0.06
 ROUNDS = 14
+_CLOSE_ENOUGH = 0.015
 
 LINE_X = np.arange(-30.0, 30.5, 1.0)
 _Z = np.arange(0.0, 50.0, 0.5)
@@ -50,7 +51,10 @@ def seal_lips(geometry: Topology, low: NDArray[np.float64], vertices: NDArray[np
         gap, line = lip_gaps(geometry, low, sealed)
         if not np.isfinite(gap).any():
             break
-        step = np.interp(sealed[lips, 0], LINE_X, _steady(gap - CLEARANCE)) / 2
+        steps = _steady(gap - CLEARANCE)
+        if np.abs(steps).max() < _CLOSE_ENOUGH:
+            break
+        step = np.interp(sealed[lips, 0], LINE_X, steps) / 2
         fade = 1 - smoothstep(near_line(sealed[lips], line), *_FADE)
         sealed[lips, 1] += step * fade * (2 * low[lips] - 1)
     return sealed

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from emogen_core.rigs.canvas import Canvas, smoothstep, unit
+from emogen_core.rigs.mouth_units import cheek_ball, opened_jaw, smile_lips, tongue_out
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -60,10 +61,20 @@ def _whole_brow(source: Source, canvas: Canvas, offsets: Offsets) -> Offsets:
 
 def _open_smile(source: Source, canvas: Canvas, offsets: Offsets) -> Offsets:
     """Show the upper teeth between lips that curve up: the unit drops the lower lip and keeps the upper one low."""
-    parts = {"ak:mouthSmile{Side}": 0.45, "ak:mouthUpperUp{Side}": 0.8, "ak:mouthLowerDown{Side}": 0.3}
+    parts = {"ak:mouthSmile{Side}": 0.50, "ak:mouthUpperUp{Side}": 0.8, "ak:mouthLowerDown{Side}": 0.1}
     left = sum((share * pair_unit(source, canvas, name) for name, share in parts.items()), np.zeros_like(offsets))
     own = offsets * (0.6 - 0.25 * canvas.low[:, None])
-    return _smile_crease(source, canvas, _nose_base(source, canvas, own + left + canvas.mirrored(left)))
+    rolled = 0.2 * canvas.symmetric(unit(source, "ak:mouthRollUpper"))
+    smile = _smile_crease(source, canvas, _nose_base(source, canvas, own + left + canvas.mirrored(left)))
+    return smile + rolled + smile_lips(canvas) + cheek_ball(canvas, 2.4, 1.5)
+
+
+def _closed_smile(source: Source, canvas: Canvas, offsets: Offsets) -> Offsets:
+    return _smile_crease(source, canvas, offsets) + left_half(canvas, cheek_ball(canvas, 1.8, 1.0)) / 0.65
+
+
+def _cheek(_source: Source, canvas: Canvas, offsets: Offsets) -> Offsets:
+    return offsets + left_half(canvas, cheek_ball(canvas, 2.2, 0.6))
 
 
 def _pressed(source: Source, canvas: Canvas, offsets: Offsets) -> Offsets:
@@ -120,8 +131,10 @@ _REPAIRS: Mapping[str, Repair] = {
     "browRaise": _whole_brow,
     "nostrilPinch": _pinch,
     "noseWingRaise": _nose_base,
-    "mouthSmile": _smile_crease,
+    "mouthSmile": _closed_smile,
+    "cheekRaise": _cheek,
     "mouthSmileOpen": _open_smile,
+    "jawOpen": opened_jaw,
     "mouthDepress": _mouth_corner,
     "mouthPress": _pressed,
     "funnelUpper": _upper,
@@ -129,4 +142,5 @@ _REPAIRS: Mapping[str, Repair] = {
     "upperLipElevate": _nose_base,
     "lowerLipRetract": _nose_base,
     "neckTighten": _neck,
+    "tongueOut": tongue_out,
 }

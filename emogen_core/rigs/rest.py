@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 UPPER_COVER = (0.10, 0.23)
 LOWER_COVER = (0.05, 0.16)
 BROW_HEIGHT = (14.6, 30.0)
-CORNER_HEIGHT = (0.6, 2.5)
+CORNER_HEIGHT = (1.0, 2.5)
 
 # The rig's region with the vertices under the brows.
 BROWS = "brows"

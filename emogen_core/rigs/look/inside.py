@@ -50,7 +50,7 @@ def paint_inside(canvas: Canvas) -> NDArray[np.float32]:
 
 def _tongue(canvas: Canvas) -> NDArray[np.float32]:
     # A soft furrow with a finer one in it.
-    groove = 1 - 0.13 * np.exp(-((canvas.x / 0.040) ** 2)) - 0.05 * np.exp(-((canvas.x / 0.012) ** 2))
+    groove = 1 - 0.06 * np.exp(-((canvas.x / 0.050) ** 2)) - 0.03 * np.exp(-((canvas.x / 0.012) ** 2))
     buds = 1 + 0.030 * value_noise(canvas.place, 90, 31) + 0.015 * value_noise(canvas.place, 40, 32)
     coated = step(canvas.z, 0.30, -0.05)[:, None] * np.array([0.04, 0.06, 0.05])
     return np.asarray((_TONGUE + coated) * (groove * buds)[:, None], np.float32)

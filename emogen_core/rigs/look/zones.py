@@ -135,10 +135,10 @@ def _lip_lines(canvas: Canvas) -> NDArray[np.float32]:
 
 
 def _lips(canvas: Canvas, mask: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Return the red of the lips: full inside, running out over a millimetre or two."""
-    soft = canvas.sample(gaussian_filter(mask, 7.0 * mask.shape[0] / 2048))
+    """Return the red of the lips: full inside, running out over a millimetre."""
+    soft = canvas.sample(gaussian_filter(mask, 5.0 * mask.shape[0] / 2048))
     edge = soft + 0.045 * value_noise(canvas.place, 45, 8)
-    return np.asarray(step(edge, 0.12, 0.86) * canvas.is_part("skin"), np.float32)
+    return np.asarray(step(edge, 0.24, 0.82) * canvas.is_part("skin"), np.float32)
 
 
 def _cavity(canvas: Canvas, lids: NDArray[np.float32], occlusion: NDArray[np.float32]) -> NDArray[np.float32]:
