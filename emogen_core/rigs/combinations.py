@@ -47,7 +47,7 @@ SMALLEST_DAMAGE = 8
 STRONG = 0.875
 # A first look is at so many faces; so many pairs, those that gained most in it, are tried in every way on all.
 GLANCED_FACES = 16
-SHORTLIST = 2 * KEPT
+SHORTLIST = 80
 
 
 def choose_pairs(deriver: Deriver, head: Head, genes: Meshes, skipped: frozenset[str]) -> list[Pair]:
