@@ -30,6 +30,7 @@ from emogen_core.rigs.source import open_source
 from emogen_core.rigs.units import core_shapes
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from pathlib import Path
 
     from numpy.typing import NDArray
@@ -67,29 +68,18 @@ def build_rig(source: Path, out_path: Path, space_path: Path) -> Rig:
     space = rounded(bake_space(data, geometry, np.asarray(geometry.operator @ canvas.low, np.float64)))
     low, brows = space.low.astype(np.float64), brow_vertices(geometry, geometry.positions)
     units = core_shapes(data, geometry, canvas)
-    default = rested(geometry, low, brows, Head(*space.head(IDENTITIES[DEFAULT])), gene_offsets(units))
-    raw = sealed_shapes(default.neutral, units, lambda mesh: seal_lips(geometry, low, mesh))
+    sealed = rested(geometry, low, brows, Head(*space.head(IDENTITIES[DEFAULT])), gene_offsets(units))
+    raw = sealed_shapes(sealed.neutral, units, lambda mesh: seal_lips(geometry, low, mesh))
+    shell = _bare(geometry, low, brows, sealed.neutral, raw)
+    # Shapes are mended, and correctives chosen, on the very head that wears them: slivers between lips decide much.
+    default = replace(sealed, neutral=Fitter(shell, space).freed(sealed.neutral))
     deriver = Deriver(geometry, _shut(data, geometry, canvas))
     core = mended_shapes(deriver.mender, default, raw | fitted_lids(geometry, default, raw))
     genes = gene_offsets(core)
     pairs = choose_pairs(deriver, default, genes, _inactive())
     combined = [lid_corrective(geometry, deriver, pair, default, genes) for pair in pairs]
-    collision = collision_offsets(geometry, low, default.neutral)
-    offsets = np.concatenate([np.stack(list(core.values())), np.stack(combined), collision])
-    rig = Rig(
-        name=NAME,
-        genes=tuple(recipe.gene for recipe in RECIPES),
-        core_shapes=tuple(core),
-        combinations=tuple(pair.combination for pair in pairs),
-        collision_shapes=COLLISION_SHAPES,
-        emotion_sets=EMOTION_SETS,
-        offsets=offsets.astype(np.float32),
-        neutrals={DEFAULT: default.neutral.astype(np.float32)},
-        triangles=geometry.triangles,
-        parts=geometry.parts,
-        regions=mouth_regions(geometry, low, default.neutral) | {BROWS: brows},
-        mirror=geometry.mirror.astype(np.int32),
-    )
+    offsets = np.concatenate([[*core.values(), *combined], shell.offsets[len(core) :]]).astype(np.float32)
+    rig = replace(shell, combinations=tuple(pair.combination for pair in pairs), offsets=offsets)
     derived_anew = tuple((p.combination.name, p.method) for p in pairs if moves_lids(p.parents))
     space = save_space(replace(space, lid_correctives=derived_anew), space_path)
     # Heads are fitted to the rig as a reader of the file gets it, as at run time.
@@ -103,6 +93,31 @@ def _shut_mouth(fitter: Fitter, core: Meshes, neutral: Mesh) -> Rig:
     offsets = fitter.rig.offsets.copy()
     offsets[: len(core)] = np.stack(list(fitter.shut(freed, core).values()))
     return replace(fitter.rig, neutrals={DEFAULT: freed.astype(np.float32)}, offsets=offsets)
+
+
+def _bare(
+    geometry: HeadGeometry,
+    low: NDArray[np.float64],
+    brows: NDArray[np.int32],
+    neutral: NDArray[np.float64],
+    core: Mapping[str, NDArray[np.float64]],
+) -> Rig:
+    """Return a rig of one head, its sealed neutral (N, 3), that has no combinational correctives yet."""
+    offsets = [*core.values(), *collision_offsets(geometry, low, neutral)]
+    return Rig(
+        name=NAME,
+        genes=tuple(recipe.gene for recipe in RECIPES),
+        core_shapes=tuple(core),
+        combinations=(),
+        collision_shapes=COLLISION_SHAPES,
+        emotion_sets=EMOTION_SETS,
+        offsets=np.stack(offsets).astype(np.float32),
+        neutrals={DEFAULT: neutral.astype(np.float32)},
+        triangles=geometry.triangles,
+        parts=geometry.parts,
+        regions=mouth_regions(geometry, low, neutral) | {BROWS: brows},
+        mirror=geometry.mirror.astype(np.int32),
+    )
 
 
 def _with_presets(rig: Rig, space: IdentitySpace) -> Rig:

@@ -41,9 +41,10 @@ Method = Literal["sum", "max", "two", "gradient max", "gradient two", "composed"
 
 OFFSET_METHODS: tuple[Method, ...] = ("max", "two")
 GRADIENT_METHODS: tuple[Method, ...] = ("gradient max", "gradient two", "composed")
-# Always kept. The larger closure or lift of the brows wins, though doubling it would fold nothing; a closing lid takes
-# back a raised, lowered or tight one, and what two others take from each other; pressed lips stay shut on an open jaw;
-# a closed and an open smile together are a broader one.
+# Always kept. The larger closure or lift of the brows wins, though doubling it would fold nothing; a lower lid is
+# lifted once, or the eyeball would show through the cheek; a closing lid takes back a raised, lowered or tight one, and
+# what two others take from each other; pressed lips stay shut on an open jaw; a closed and an open smile together are
+# a broader one.
 RULES: Mapping[tuple[str, ...], Method] = {
     ("lidsClose", "lidsTight"): "ease",
     ("lidsClose", "lidsSlit"): "max",
@@ -51,6 +52,7 @@ RULES: Mapping[tuple[str, ...], Method] = {
     ("gazeDown", "lidsTight"): "ease",
     ("lidsSlit", "gazeDown"): "max",
     ("lidsTight", "lidsSlit"): "max",
+    ("lidsTight", "cheekRaise"): "max",
     ("lidsClose", "lidUpperRaise"): "cancel",
     ("lidsClose", "gazeLeft"): "cancel",
     ("lidsClose", "gazeRight"): "cancel",

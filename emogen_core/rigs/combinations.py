@@ -1,15 +1,16 @@
 """Which combinational correctives the bundled rig has: chosen by what random faces gain, no artist is here.
 
-Every pair of genes that move the same skin is derived in several ways (`candidates.py`). Each is measured as random
-faces will meet it: at weights spread over the unit square, driven by their product, in flips, folds, stretch and
-piercing edges less than added shapes. The best way of each pair competes; those that gain most are kept, after the
-rules for lids and brows, which are always there.
+Every pair of genes that damage the same skin together is derived in several ways (`candidates.py`). Each is tried on
+random faces that have both genes in the company of others (`company.py`): what counts is how many flips, folds and
+stretched triangles it spares them, and how many faces look better for one that looks worse. The best way of each pair
+competes; those that gain most are kept, after the rules for lids and brows, which are always there.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
-from itertools import combinations, product
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,13 +24,15 @@ from emogen_core.rigs.candidates import (
     moves_lids,
     overlap,
 )
-from emogen_core.rigs.quality import Damage, Gauge
+from emogen_core.rigs.company import Company
+from emogen_core.rigs.quality import Gauge
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from numpy.typing import NDArray
 
+    from emogen_core.rigs.company import Trial
     from emogen_core.rigs.fitting import Head
 
     Mesh = NDArray[np.float64]
@@ -39,12 +42,12 @@ KEPT = 60
 # A pair is looked at where both genes move this many vertices, mirror images included, by more than this.
 OVERLAP_VERTICES = 20
 OVERLAP_MILLIMETRES = 0.3
-# Middles of four equal parts of [0, 1], but the lowest: hardly anything breaks there.
-NODES = (0.375, 0.625, 0.875)
-# A triangle that only the corrective turns over counts so many times more: it may mend stretch, never at that price.
-HARM = 4
-# Pairs that break less than this at the highest of these are not worth a shape.
+# Pairs that alone break less than this at these weights are not worth a shape.
 SMALLEST_DAMAGE = 8
+STRONG = 0.875
+# A first look is at so many faces; so many pairs, those that gained most in it, are tried in every way on all.
+GLANCED_FACES = 16
+SHORTLIST = 80
 
 
 def choose_pairs(deriver: Deriver, head: Head, genes: Meshes, skipped: frozenset[str]) -> list[Pair]:
@@ -56,68 +59,81 @@ def choose_pairs(deriver: Deriver, head: Head, genes: Meshes, skipped: frozenset
         genes: gene -> (N, 3) offsets of its members together.
         skipped: genes that take no part (lateral, disabled).
     """
-    moved = {name: np.linalg.norm(o, axis=1) > OVERLAP_MILLIMETRES for name, o in genes.items() if name not in skipped}
-    ruled = {frozenset(parents) for parents in RULES}
-    found = [
-        best_pair(deriver, pair, head, genes)
-        for pair in combinations(moved, 2)
-        if frozenset(pair) not in ruled and (moved[pair[0]] & moved[pair[1]]).sum() >= OVERLAP_VERTICES
-    ]
-    gaining = sorted((pair for pair in found if pair.gain > 0), key=lambda p: (-p.gain, p.parents))
-    return [Pair(parents, method) for parents, method in RULES.items()] + gaining[: KEPT - len(RULES)]
-
-
-def best_pair(deriver: Deriver, parents: tuple[str, str], head: Head, genes: Meshes) -> Pair:
-    """Return a pair derived in the way that gains most; its gain is 0 if adding the two breaks next to nothing.
-
-    Of the methods on offsets and of those on gradients the better one goes on; these and the plain sum are relaxed
-    too. Lids are spared gradients and relaxing.
-    """
-    a, b = (genes[name] for name in parents)
-    trial = Trial(Gauge(head.neutral, deriver.mender.flesh).near(overlap(a, b)), a, b)
-    if trial.added(NODES[-1], NODES[-1], False).total < SMALLEST_DAMAGE:
-        return Pair(parents, "sum")
-    lids = moves_lids(parents)
-    finalists = [] if lids else [Pair(parents, "sum", relaxed=True)]
-    for methods in (OFFSET_METHODS,) if lids else (OFFSET_METHODS, GRADIENT_METHODS):
-        quick = {method: trial.gain(deriver.derive(Pair(parents, method), head, genes), 1) for method in methods}
-        best = Pair(parents, max(quick, key=lambda method: quick[method]))
-        finalists += [best] if lids else [best, replace(best, relaxed=True)]
-    return max(
-        (replace(pair, gain=trial.gain(deriver.derive(pair, head, genes))) for pair in finalists),
-        key=lambda pair: pair.gain,
-    )
+    choice = Choice(deriver, head, {name: offsets for name, offsets in genes.items() if name not in skipped})
+    glanced = sorted(map(choice.glanced, choice.damaging_pairs()), key=lambda ways: _order(max(ways, key=_gain)))
+    found = sorted(map(choice.best, glanced[:SHORTLIST]), key=_order)
+    rules = [Pair(parents, method) for parents, method in RULES.items()]
+    return rules + [pair for pair in found if pair.gain > 0][: KEPT - len(RULES)]
 
 
 @dataclass(frozen=True)
-class Trial:
-    """Two (N, 3) shapes on the triangles that both move, with and without a corrective."""
+class Choice:
+    """Candidates on one head, and what random faces gain by each.
 
-    gauge: Gauge
-    a: Mesh
-    b: Mesh
-    _seen: dict[tuple[float, float, bool], Damage] = field(default_factory=dict)
+    Attributes:
+        deriver: derives correctives.
+        head: the head on which gains are measured.
+        genes: gene -> (N, 3) offsets of its members together; those that take part.
+    """
 
-    def added(self, u: float, v: float, piercing: bool) -> Damage:
-        """Return what adding the two at some weights damages."""
-        if (u, v, piercing) not in self._seen:
-            self._seen[u, v, piercing] = self.gauge.damage(self._sum(u, v), piercing)
-        return self._seen[u, v, piercing]
+    deriver: Deriver
+    head: Head
+    genes: Meshes
 
-    def gain(self, corrective: Mesh, nodes: int = len(NODES)) -> float:
-        """Return how much less is damaged with a (N, 3) corrective, in the mean over weights in [0, 1].
+    def damaging_pairs(self) -> list[tuple[str, str]]:
+        """Return the pairs without a rule that break triangles when they are added."""
+        moved = {name: np.linalg.norm(o, axis=1) > OVERLAP_MILLIMETRES for name, o in self.genes.items()}
+        ruled = {frozenset(parents) for parents in RULES}
+        return [
+            (a, b)
+            for a, b in combinations(moved, 2)
+            if frozenset((a, b)) not in ruled
+            and (moved[a] & moved[b]).sum() >= OVERLAP_VERTICES
+            and self._damage(a, b) >= SMALLEST_DAMAGE
+        ]
 
-        Only the strongest ``nodes`` weights of each gene are tried. Piercing edges, which take long to find, count
-        where several are, and at the strongest of them.
+    def glanced(self, parents: tuple[str, str]) -> list[Pair]:
+        """Return a pair derived from offsets and from gradients, each in the way that a few faces gain most by.
+
+        Lids are spared gradients.
         """
-        gain = 0.0
-        for u, v in product(NODES[-nodes:], NODES[-nodes:]):
-            piercing = u == v == NODES[-1] and nodes > 1
-            before = self.added(u, v, piercing)
-            after = self.gauge.damage(self._sum(u, v) + u * v * corrective, piercing)
-            gain += before.total - after.total - HARM * max(0, after.flips - before.flips)
-        return gain / (len(NODES) + 1) ** 2
+        trial = self._company.trial(parents, self._gauge(*parents), GLANCED_FACES)
+        kinds = (OFFSET_METHODS,) if moves_lids(parents) else (OFFSET_METHODS, GRADIENT_METHODS)
+        return [max((self._tried(trial, Pair(parents, way)) for way in ways), key=_gain) for ways in kinds]
 
-    def _sum(self, u: float, v: float) -> Mesh:
-        total: Mesh = self.gauge.neutral + u * self.a + v * self.b
-        return total
+    def best(self, glanced: list[Pair]) -> Pair:
+        """Return the one of some ways to derive a pair that gains most; these and the plain sum are relaxed too.
+
+        Lids are spared relaxing.
+        """
+        parents = glanced[0].parents
+        if not moves_lids(parents):
+            relaxed = [replace(pair, relaxed=True) for pair in glanced]
+            glanced = [*glanced, *relaxed, Pair(parents, "sum", relaxed=True)]
+        trial = self._company.trial(parents, self._gauge(*parents))
+        return max((self._tried(trial, pair) for pair in glanced), key=_gain)
+
+    def _damage(self, a: str, b: str) -> float:
+        added = self.head.neutral + STRONG * (self.genes[a] + self.genes[b])
+        return self._gauge(a, b).damage(added).total
+
+    def _tried(self, trial: Trial, pair: Pair) -> Pair:
+        return replace(pair, gain=trial.gain(self.deriver.derive(pair, self.head, self.genes)))
+
+    def _gauge(self, a: str, b: str) -> Gauge:
+        """Return what measures the triangles that both genes move."""
+        return Gauge(self.head.neutral, self.deriver.mender.flesh).near(overlap(self.genes[a], self.genes[b]))
+
+    @cached_property
+    def _company(self) -> Company:
+        rules = [Pair(parents, method) for parents, method in RULES.items() if set(parents) <= set(self.genes)]
+        ruled = {pair.parents: self.deriver.derive(pair, self.head, self.genes) for pair in rules}
+        return Company(self.head.neutral, self.genes, ruled)
+
+
+def _gain(pair: Pair) -> float:
+    return pair.gain
+
+
+def _order(pair: Pair) -> tuple[float, tuple[str, ...]]:
+    return -pair.gain, pair.parents

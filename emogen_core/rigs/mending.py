@@ -49,6 +49,10 @@ _MIDDLE = 1e-6
 # Closing lids must meet: what relaxes their skin lifts it off the eye (`lids.py` fits them). So they are mended only
 # from so far outside the ends of the opening, millimetres.
 _BEYOND_OPENING = 0.5
+# The weights at which damage is counted, and how much more a flipped triangle counts than a stretched one: what is
+# relaxed at weight 1 must not turn over on the way there.
+JUDGED = (0.6, 1.0)
+TURNED = 2
 # Less damage than this is not worth another shape.
 WORTH = 4
 
@@ -88,10 +92,10 @@ class Mender:
         free = np.abs(offsets).max(1) > _STILL if reach is None else reach
         gauge = Gauge(neutral, self.flesh).near(free)
         best, waited = offsets, 0
-        least = gauge.damage(neutral + offsets).total
+        least = _damage(gauge, offsets)
         for _ in range(ROUNDS if least >= WORTH else 0):
             offsets = self._relaxed(gauge, offsets, free)
-            damage = gauge.damage(neutral + offsets).total
+            damage = _damage(gauge, offsets)
             waited = 0 if damage < least else waited + 1
             if damage < least:
                 best, least = offsets, damage
@@ -120,6 +124,12 @@ class Mender:
         mask[self._rims] = 0
         relaxed: Mesh = offsets + mask[:, None] * (self.mean @ offsets - offsets)
         return relaxed
+
+
+def _damage(gauge: Gauge, offsets: Mesh) -> float:
+    """Return what (N, 3) offsets damage on the way to weight 1; what is turned over counts most."""
+    damages = [gauge.damage(gauge.neutral + weight * offsets) for weight in JUDGED]
+    return sum(damage.total + TURNED * damage.flips for damage in damages) / len(JUDGED)
 
 
 def mended_shapes(mender: Mender, head: Head, core: Meshes) -> Meshes:

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from emogen_core.rigs.candidates import EASED, OFFSET_METHODS, RULES, Deriver, Pair, overlap
-from emogen_core.rigs.combinations import HARM, KEPT, Trial, best_pair, choose_pairs
+from emogen_core.rigs.candidates import EASED, GRADIENT_METHODS, OFFSET_METHODS, RULES, Deriver, Pair, overlap
+from emogen_core.rigs.combinations import KEPT, Choice, choose_pairs
 from emogen_core.rigs.quality import Gauge
 from tests.emogen_core.rigs.patch import Patch, points
 
@@ -54,44 +54,41 @@ def test_overlap_is_where_both_move():
     assert np.array_equal(overlap(half, LIFT), points()[:, 0] > 0)
 
 
+def choice(genes):
+    return Choice(DERIVER, HEAD, genes)
+
+
 def test_the_chosen_way_gains_and_mends():
-    pair = best_pair(DERIVER, ("wide", "wider"), HEAD, GENES)
+    [parents] = choice(GENES).damaging_pairs()
+    assert parents == ("wide", "wider")
+    pair = choice(GENES).best(choice(GENES).glanced(parents))
     assert pair.gain > 0
     corrective = DERIVER.derive(pair, HEAD, GENES)
     assert damage(WIDE, GENES["wider"]).stretched > 0
     assert damage(WIDE, GENES["wider"], corrective).total == 0
 
 
-def test_a_pair_that_breaks_nothing_gains_nothing():
-    assert best_pair(DERIVER, ("wide", "lift"), HEAD, GENES) == Pair(("wide", "lift"), "sum")
+def test_a_glance_leaves_the_better_way_of_each_kind():
+    offsets, gradients = choice(GENES).glanced(("wide", "wider"))
+    assert offsets.method in OFFSET_METHODS
+    assert gradients.method in GRADIENT_METHODS
+    assert not offsets.relaxed
+    assert not gradients.relaxed
+
+
+def test_pairs_that_break_nothing_or_have_a_rule_are_not_looked_at():
+    assert choice({"wide": WIDE, "lift": LIFT}).damaging_pairs() == []
+    assert choice({"mouthSmile": WIDE, "mouthSmileOpen": WIDE}).damaging_pairs() == []
 
 
 def test_lids_are_spared_gradients_and_relaxing():
     # browDown moves the lids; their shapes are derived anew on every head, from offsets alone.
     head = FlatHead(points())
     head.eye_centre = np.array([500.0, 0, 0])
-    pair = best_pair(DERIVER, ("browDown", "wider"), head, GENES | {"browDown": WIDE})
-    assert pair.method in OFFSET_METHODS
-    assert not pair.relaxed
-
-
-def test_a_gain_is_the_mean_over_the_weights_of_both():
-    gauge = Gauge(points(), Patch().triangles)
-    trial = Trial(gauge, WIDE, WIDE)
-    assert trial.gain(0 * WIDE) == 0
-    # Added, 1 + 1.4 (u + v) passes 3 for u + v > 1.43 only: at (.625, .875) both ways round and at (.875, .875).
-    undone = trial.gain(-WIDE)
-    assert undone == pytest.approx(3 * len(gauge.triangles) / 16)
-
-
-def test_triangles_that_only_a_corrective_turns_over_cost_more_than_any_it_mends():
-    gauge = Gauge(points(), Patch().triangles)
-    # The two shapes stretch every triangle; the corrective takes that back and turns some over instead.
-    turned = -WIDE * np.where(points()[:, :1] > 0, 4.0, 1.0)
-    trial = Trial(gauge, WIDE, WIDE)
-    at_one = gauge.damage(points() + 0.875 * 2 * WIDE + 0.875**2 * turned)
-    assert at_one.flips > 0
-    assert trial.gain(turned, 1) == (trial.added(0.875, 0.875, False).total - at_one.total - HARM * at_one.flips) / 16
+    lids = Choice(DERIVER, head, GENES | {"browDown": WIDE})
+    [glanced] = lids.glanced(("browDown", "wider"))
+    assert glanced.method in OFFSET_METHODS
+    assert not lids.best([glanced]).relaxed
 
 
 def test_rules_come_first_and_only_gaining_pairs_follow():

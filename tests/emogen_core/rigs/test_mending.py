@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from emogen_core.rigs.mending import EASED, Mender, neighbour_mean
+from emogen_core.rigs.mending import EASED, JUDGED, TURNED, Mender, neighbour_mean
 from emogen_core.rigs.quality import Gauge
 from tests.emogen_core.rigs.patch import SIZE, Patch, points
 
@@ -64,3 +64,17 @@ def test_what_is_squeezed_is_eased_and_no_more_than_its_share():
 def test_a_mean_of_neighbours_keeps_constants_and_lonely_vertices():
     mean = neighbour_mean(np.array([[0, 1, 2]], np.int32), 4)
     assert (mean @ np.array([6.0, 0, 3, 5])).tolist() == [3, 3, 3, 5]
+
+
+def test_less_is_damaged_all_the_way_to_weight_1():
+    generator = np.random.default_rng(3)
+    for _ in range(8):
+        offsets = np.zeros_like(points())
+        offsets[generator.choice(SIZE * SIZE, 12, replace=False)] = generator.normal(0, 1.5, (12, 3))
+        before, after = (weighed(o) for o in (offsets, MENDER.mended(points(), offsets)))
+        assert after < before
+
+
+def weighed(offsets):
+    damages = [GAUGE.damage(points() + weight * offsets) for weight in JUDGED]
+    return sum(damage.total + TURNED * damage.flips for damage in damages)
