@@ -1,9 +1,9 @@
 """Offsets mended where they damage a mesh: strained triangles are relaxed until no less is damaged.
 
 Half of all flipped triangles of random faces came from single units, and which of their triangles break depends on the
-head. So every gene is mended at weight 1 on every head: around triangles that stretch or turn too far, offsets are
-averaged with their neighbours', again and again, and the least damaged state is kept. The rims of the lids stay where
-they are.
+head. So every gene is mended at weights .6 and 1 on every head: around triangles that stretch or turn too far, offsets
+are averaged with their neighbours', again and again, and the least damaged state is kept. The rims of the lids stay
+where they are.
 """
 
 from __future__ import annotations
