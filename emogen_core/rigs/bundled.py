@@ -15,6 +15,7 @@ from emogen_core.rigs.candidates import Deriver, moves_lids
 from emogen_core.rigs.canvas import make_canvas, unit
 from emogen_core.rigs.collision_shapes import COLLISION_SHAPES, collision_offsets, mouth_regions
 from emogen_core.rigs.combinations import choose_pairs
+from emogen_core.rigs.company import Company
 from emogen_core.rigs.emotion_sets import EMOTION_SETS
 from emogen_core.rigs.features import brow_vertices
 from emogen_core.rigs.fitting import Head, fitted_lids, gene_offsets, sealed_shapes
@@ -44,6 +45,8 @@ if TYPE_CHECKING:
 NAME = "emogen-head"
 # The head on which correctives are derived, and whose lids the unadjusted offsets fit.
 DEFAULT = "female"
+# Heads that differ most from it and from each other: no corrective may do harm on one of them.
+WITNESSES = ("asian-female-young", "caucasian-male-old", "african-male-young")
 
 _INACTIVE = frozenset({"lateral", "disabled"})
 
@@ -76,7 +79,9 @@ def build_rig(source: Path, out_path: Path, space_path: Path) -> Rig:
     deriver = Deriver(geometry, _shut(data, geometry, canvas))
     core = mended_shapes(deriver.mender, default, raw | fitted_lids(geometry, default, raw))
     genes = gene_offsets(core)
-    pairs = choose_pairs(deriver, default, genes, _inactive())
+    bare = replace(shell, offsets=np.concatenate([[*core.values()], shell.offsets[len(core) :]]).astype(np.float32))
+    witnesses = _witnesses(Fitter(replace(bare, neutrals={DEFAULT: default.neutral.astype(np.float32)}), space))
+    pairs = choose_pairs(deriver, default, genes, _inactive(), witnesses)
     combined = [lid_corrective(geometry, deriver, pair, default, genes) for pair in pairs]
     offsets = np.concatenate([[*core.values(), *combined], shell.offsets[len(core) :]]).astype(np.float32)
     rig = replace(shell, combinations=tuple(pair.combination for pair in pairs), offsets=offsets)
@@ -118,6 +123,19 @@ def _bare(
         regions=mouth_regions(geometry, low, neutral) | {BROWS: brows},
         mirror=geometry.mirror.astype(np.int32),
     )
+
+
+def _witnesses(fitter: Fitter) -> list[Company]:
+    """Return other heads as they wear a fitter's rig."""
+    made = []
+    for name in WITNESSES:
+        neutral, adjustment = fitter.fit(IDENTITIES[name])
+        offsets = fitter.rig.offsets.astype(np.float64)
+        offsets[adjustment.shapes] += adjustment.offsets
+        genes = gene_offsets(dict(zip(fitter.rig.core_shapes, offsets, strict=False)))
+        active = {gene: moved for gene, moved in genes.items() if gene not in _inactive()}
+        made.append(Company(neutral.astype(np.float64), active, {}))
+    return made
 
 
 def _with_presets(rig: Rig, space: IdentitySpace) -> Rig:

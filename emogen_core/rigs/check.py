@@ -15,7 +15,7 @@ from emogen_core.errors import InvalidInputError, expected
 from emogen_core.face.space import topology_hash
 from emogen_core.face.space_file import load_bundled_space
 from emogen_core.rigs.collision_check import check_collisions
-from emogen_core.rigs.combination_check import combination_report
+from emogen_core.rigs.combination_check import combination_report, pooled
 from emogen_core.rigs.head_check import check_head
 from emogen_core.rigs.random_faces import active_genes
 
@@ -40,9 +40,9 @@ class Sample:
 
 @dataclass(frozen=True, slots=True)
 class Bar:
-    """What a figure of every head must reach: at most, at least, or exactly ``limit``.
+    """What a figure of every head must reach, or one of all heads together: at most, at least, or exactly ``limit``.
 
-    ``where`` leads to the figure in a head's report: the measure, then its keys.
+    ``where`` leads to the figure in a report: the measure, then its keys.
     """
 
     name: str
@@ -68,6 +68,9 @@ MEASURES: dict[str, Measure] = {
     "combinations": combination_report,
     "head": _check_head,
 }
+ALL = "all heads"
+POOLED: dict[str, Callable[[Sequence[dict[str, Any]]], dict[str, Any]]] = {"combinations": pooled}
+"""Measures whose bars are for the faces of all heads together."""
 BARS = (
     Bar("share over 0.5 mm afterwards", ("collisions", "over_half_mm_after"), "at most", 0.01),
     Bar("milliseconds a face, mean", ("collisions", "milliseconds", "processor", "mean"), "at most", 3.0),
@@ -104,7 +107,8 @@ def check_rig(
 
     Returns:
         JSON-ready: ``name``, ``hash``, ``counts``, ``faces``, ``seed``; under ``identities`` what each of `MEASURES`
-        says of a head; under ``bars`` the worst head for each of `BARS` and whether it is ``met``.
+        says of a head, under ``all heads`` what the `POOLED` ones say of them together; under ``bars`` the worst head
+        for each of `BARS`, or all heads, and whether it is ``met``.
 
     Raises:
         InvalidInputError: no faces, or an unknown identity.
@@ -125,6 +129,7 @@ def check_rig(
         "faces": sample.faces,
         "seed": sample.seed,
         "identities": reports,
+        ALL: pooled_reports(reports),
         "bars": verdicts(reports),
     }
 
@@ -144,11 +149,22 @@ def counts(rig: Rig) -> dict[str, int]:
     }
 
 
+def pooled_reports(reports: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """Return what each of `POOLED` says of the faces of all heads together."""
+    found = {name: [report[name] for report in reports.values() if name in report] for name in POOLED}
+    return {name: POOLED[name](those) for name, those in found.items() if those}
+
+
 def verdicts(reports: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
-    """Return for each of `BARS` the worst head, its figure, and whether it meets the bar; bars without a figure not."""
+    """Return for each of `BARS` the worst head, its figure, and whether it meets the bar; bars without a figure not.
+
+    Where a measure is pooled, all heads together have to.
+    """
+    together = {ALL: pooled_reports(reports)}
     found = []
     for bar in BARS:
-        values = {head: _figure(report, bar.where) for head, report in reports.items() if bar.where[0] in report}
+        judged = together if bar.where[0] in POOLED else reports
+        values = {head: _figure(report, bar.where) for head, report in judged.items() if bar.where[0] in report}
         if not values:
             continue
         worst = max(values, key=lambda head: bar.worse(values[head]))

@@ -50,6 +50,7 @@ def _collision_row(identity: str, found: dict[str, Any]) -> tuple[str, ...]:
 
 def _combinations(report: dict[str, Any]) -> str:
     rows = [_combination_row(name, r["combinations"]) for name, r in report["identities"].items()]
+    rows.append(_combination_row("all heads", report["all heads"]["combinations"]))
     return table(("identity", "flipped", "folded", "overstretched", "faces better / worse"), rows)
 
 
@@ -76,7 +77,7 @@ def _bars(report: dict[str, Any]) -> str:
         (bar["bar"], f"{bar['rule']} {bar['limit']}", f"{bar['worst']} ({bar['identity']})", _verdict(bar))
         for bar in report["bars"]
     ]
-    return table(("bar", "wanted", "worst head", "verdict"), rows)
+    return table(("bar", "wanted", "worst", "verdict"), rows)
 
 
 def _verdict(bar: dict[str, Any]) -> str:

@@ -12,6 +12,8 @@ from emogen_core.rigs.quality import Damage, Gauge
 from emogen_core.rigs.random_faces import random_genes
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
     from emogen_core.face.rig import Rig
@@ -47,6 +49,25 @@ def combination_report(rig: Rig, identity: str, faces: int, seed: int) -> dict[s
     means = {"without": _means(without), "with": _means(corrected)}
     better = sum(b.flips < a.flips for a, b in zip(without, corrected, strict=True))
     worse = sum(b.flips > a.flips for a, b in zip(without, corrected, strict=True))
+    return _report(means, better, worse)
+
+
+def pooled(reports: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    """Return what `combination_report` would say of the faces of several heads, as many of each, taken together."""
+    means = {
+        on: {field: round(float(np.mean([report[on][field] for report in reports])), 3) for field in _FIELDS}
+        for on in ("without", "with")
+    }
+    return _report(means, *(sum(report[name] for report in reports) for name in ("faces_better", "faces_worse")))
+
+
+def flesh(rig: Rig) -> NDArray[np.int32]:
+    """Return the (T, 3) triangles that are judged: skin, mouth and sockets, or all of a rig without these parts."""
+    rows = [rig.triangles[slice(*rig.parts[name])] for name in _FLESH if name in rig.parts]
+    return np.concatenate(rows) if rows else rig.triangles
+
+
+def _report(means: dict[str, dict[str, float]], better: int, worse: int) -> dict[str, Any]:
     return {
         **means,
         **{f"{field}_fell": _fall(means["without"][field], means["with"][field]) for field in _FIELDS},
@@ -54,12 +75,6 @@ def combination_report(rig: Rig, identity: str, faces: int, seed: int) -> dict[s
         "faces_worse": worse,
         "better_for_one_worse": round(better / max(worse, 1), 2),
     }
-
-
-def flesh(rig: Rig) -> NDArray[np.int32]:
-    """Return the (T, 3) triangles that are judged: skin, mouth and sockets, or all of a rig without these parts."""
-    rows = [rig.triangles[slice(*rig.parts[name])] for name in _FLESH if name in rig.parts]
-    return np.concatenate(rows) if rows else rig.triangles
 
 
 def _damages(rig: Rig, identity: str, gauge: Gauge, genes: NDArray[np.float64], combined: bool) -> list[Damage]:

@@ -3,14 +3,15 @@
 Every pair of genes that damage the same skin together is derived in several ways (`candidates.py`). Each is tried on
 random faces that have both genes in the company of others (`company.py`): what counts is how many flips, folds and
 stretched triangles it spares them, and how many faces look better for one that looks worse. The best way of each pair
-competes; those that gain most are kept, after the rules for lids and brows, which are always there.
+competes; those that gain most are kept, after the rules for lids and brows, which are always there. All heads wear
+them, so one that does harm on another head makes room for the next.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import combinations
+from itertools import combinations, islice
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -28,7 +29,7 @@ from emogen_core.rigs.company import Company
 from emogen_core.rigs.quality import Gauge
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -50,7 +51,9 @@ GLANCED_FACES = 16
 SHORTLIST = 80
 
 
-def choose_pairs(deriver: Deriver, head: Head, genes: Meshes, skipped: frozenset[str]) -> list[Pair]:
+def choose_pairs(
+    deriver: Deriver, head: Head, genes: Meshes, skipped: frozenset[str], witnesses: Sequence[Company] = ()
+) -> list[Pair]:
     """Return the rules and the pairs that gain most, `KEPT` in all, strongest first after the rules.
 
     Args:
@@ -58,12 +61,14 @@ def choose_pairs(deriver: Deriver, head: Head, genes: Meshes, skipped: frozenset
         head: the head on which gains are measured.
         genes: gene -> (N, 3) offsets of its members together.
         skipped: genes that take no part (lateral, disabled).
+        witnesses: other heads with the genes that take part as they wear them; a corrective must do no harm on any.
     """
     choice = Choice(deriver, head, {name: offsets for name, offsets in genes.items() if name not in skipped})
     glanced = sorted(map(choice.glanced, choice.damaging_pairs()), key=lambda ways: _order(max(ways, key=_gain)))
     found = sorted(map(choice.best, glanced[:SHORTLIST]), key=_order)
     rules = [Pair(parents, method) for parents, method in RULES.items()]
-    return rules + [pair for pair in found if pair.gain > 0][: KEPT - len(RULES)]
+    gaining = (pair for pair in found if pair.gain > 0 and not choice.harms(pair, witnesses))
+    return rules + list(islice(gaining, KEPT - len(RULES)))
 
 
 @dataclass(frozen=True)
@@ -112,6 +117,23 @@ class Choice:
             glanced = [*glanced, *relaxed, Pair(parents, "sum", relaxed=True)]
         trial = self._company.trial(parents, self._gauge(*parents))
         return max((self._tried(trial, pair) for pair in glanced), key=_gain)
+
+    def harms(self, pair: Pair, witnesses: Sequence[Company]) -> bool:
+        """Return whether faces of one of some other heads lose by a corrective.
+
+        Those of lids are derived anew on every head, so they are not asked.
+        """
+        if moves_lids(pair.parents):
+            return False
+        corrective = self.deriver.derive(pair, self.head, self.genes)
+        return any(self._elsewhere(pair, witness).gain(corrective) < 0 for witness in witnesses)
+
+    def _elsewhere(self, pair: Pair, witness: Company) -> Trial:
+        """Return the faces of another head on which a pair is tried."""
+        a, b = pair.parents
+        moved = overlap(witness.genes[a], witness.genes[b])
+        gauge = Gauge(witness.neutral, self.deriver.mender.flesh).near(moved)
+        return replace(witness, ruled=self._company.ruled).trial((a, b), gauge)
 
     def _damage(self, a: str, b: str) -> float:
         added = self.head.neutral + STRONG * (self.genes[a] + self.genes[b])

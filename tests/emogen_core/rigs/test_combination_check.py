@@ -12,7 +12,7 @@ from emogen_core.correctives.pipeline import shape_weights
 from emogen_core.errors import InvalidInputError
 from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.rigs import combination_check
-from emogen_core.rigs.combination_check import combination_report
+from emogen_core.rigs.combination_check import combination_report, pooled
 from emogen_core.rigs.random_faces import active_genes, random_genes
 
 RIG = load_bundled_rig()
@@ -43,6 +43,15 @@ def test_a_report_is_of_its_seed_and_of_a_head_that_exists():
     assert combination_report(RIG, "female", 3, 4) == combination_report(RIG, "female", 3, 4)
     with pytest.raises(InvalidInputError, match="identity"):
         combination_report(RIG, "nobody", 3, 4)
+
+
+def test_heads_are_pooled_face_by_face():
+    one, other = (combination_report(RIG, head, 6, 4) for head in ("female", "male"))
+    assert pooled([one]) == one
+    both = pooled([one, other])
+    assert both["with"]["flips"] == pytest.approx((one["with"]["flips"] + other["with"]["flips"]) / 2, abs=1e-3)
+    assert both["flips_fell"] == pytest.approx(1 - both["with"]["flips"] / both["without"]["flips"], abs=1e-3)
+    assert both["faces_better"] == one["faces_better"] + other["faces_better"]
 
 
 def test_a_single_gene_is_untouched():

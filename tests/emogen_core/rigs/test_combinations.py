@@ -7,6 +7,7 @@ import pytest
 
 from emogen_core.rigs.candidates import EASED, GRADIENT_METHODS, OFFSET_METHODS, RULES, Deriver, Pair, overlap
 from emogen_core.rigs.combinations import KEPT, Choice, choose_pairs
+from emogen_core.rigs.company import Company
 from emogen_core.rigs.quality import Gauge
 from tests.emogen_core.rigs.patch import Patch, points
 
@@ -97,6 +98,36 @@ def test_rules_come_first_and_only_gaining_pairs_follow():
     assert [pair.parents for pair in pairs[len(RULES) :]] == [("wide", "wider")]
     assert len(pairs) <= KEPT
     assert choose_pairs(DERIVER, HEAD, GENES, frozenset({"wide", "still"}))[len(RULES) :] == []
+
+
+@dataclass
+class Fixed:
+    """Derives the same corrective whatever the pair, and none for rules."""
+
+    corrective: np.ndarray
+    mender = DERIVER.mender
+
+    def derive(self, pair, head, genes):
+        return 0 * LIFT if pair.parents in RULES else self.corrective
+
+
+@pytest.mark.parametrize(("share", "harm"), [(-5, True), (-1, False), (0, False)])
+def test_what_does_harm_on_another_head_is_not_kept(share, harm):
+    judged = Choice(Fixed(share * WIDE), HEAD, GENES)
+    pair = Pair(("wide", "wider"), "max")
+    witnesses = [Company(size * points(), GENES, {}) for size in (1, 2)]
+    assert judged.harms(pair, witnesses) == harm
+    assert not judged.harms(pair, [])
+    assert not judged.harms(Pair(("lidsClose", "wide"), "max"), witnesses)
+
+
+WITNESS = Company(points(), GENES, {})
+
+
+def test_the_next_pair_takes_the_place_of_one_that_does_harm(monkeypatch):
+    assert choose_pairs(DERIVER, HEAD, GENES, frozenset({"still"}), [WITNESS])[len(RULES) :]
+    monkeypatch.setattr(Choice, "harms", lambda self, pair, witnesses: bool(witnesses))
+    assert choose_pairs(DERIVER, HEAD, GENES, frozenset({"still"}), [WITNESS])[len(RULES) :] == []
 
 
 def test_families_hold_what_is_damped_together():
