@@ -199,17 +199,20 @@ def test_eyes_are_darkest_under_the_lid_and_in_their_corners(surface, identity):
     assert light[seen & ~middle].mean() < 0.9 * light[seen & middle & (y < (top + bottom) / 2)].mean()
 
 
-def test_the_upper_lip_shades_the_teeth_behind_it(surface):
+# A smile rolls the lip in and draws it over the teeth: it shades them less.
+@pytest.mark.parametrize(("pose", "share"), [({}, 0.85), ({"upperLipRaise": 1}, 0.85), ({"mouthSmileOpen": 1}, 0.95)])
+def test_the_upper_lip_shades_the_teeth_behind_it(surface, pose, share):
     layer = surface.look.layers["skin"]
-    rows = rows_of(surface, face(mouthSmileOpen=1, lowerLipRetract=1))["skin"]
-    lip = vertices(rig, "female", face(mouthSmileOpen=1, lowerLipRetract=1))[0][surface.look.edges["mouth_upper"]]
+    weights = face(lowerLipRetract=1, **pose)
+    rows = rows_of(surface, weights)["skin"]
+    lip = vertices(rig, "female", weights)[0][surface.look.edges["mouth_upper"]]
     front = (layer.surface[:, 0] < 0.2) & (np.abs(rows[:, 0]) < 10) & (rows[:, 5] > 0.5)
     below = np.interp(rows[:, 0], lip[:, 0], lip[:, 1]) - rows[:, 1]
     near, far = front & (below > -1) & (below < 1.5), front & (below > 4) & (below < 9)
     assert near.any()
     assert far.any()
     for column in (8, 10):
-        assert rows[near, column].mean() < 0.85 * rows[far, column].mean()
+        assert rows[near, column].mean() < share * rows[far, column].mean()
 
 
 def test_a_tongue_put_out_comes_into_the_light(surface):
