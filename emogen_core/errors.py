@@ -27,6 +27,11 @@ class MissingGLError(RenderingError):
     """This machine offers no OpenGL; the message is one sentence with what to install."""
 
 
+LONGEST = 400
+"""Letters of a wrong value that a message repeats."""
+
+
 def expected(what: str, got: object) -> str:
     """Return the sentence that every message of this package uses for bad input."""
-    return f"expected {what}, got {got!r}"
+    told = repr(got)
+    return f"expected {what}, got {told if len(told) <= LONGEST else told[:LONGEST] + '...'}"

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -167,9 +166,13 @@ def _point(head: object) -> dict[str, float]:
     return {name: fields[name] for name in _MACROS if name in fields} | mix | details
 
 
+HUGE = 1e9
+"""No parameter comes near; a whole number may be too large to become a float."""
+
+
 def _checked_point(point: Mapping[str, Any], space: IdentitySpace) -> dict[str, float]:
     for name, value in point.items():
-        if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+        if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < HUGE:
             _refuse(f"head: {name}", "a finite number", value)
     rounded = {name: _rounded(value) for name, value in point.items()}
     try:

@@ -11,6 +11,7 @@ import typer
 
 from emogen_core.errors import IdentityError, expected
 from emogen_core.face.bundled import load_bundled_rig
+from emogen_core.face.container import check_writable
 from emogen_core.face.identity import Identity, identity_hash, is_adult, load_identity, save_identity, signed_document
 from emogen_core.face.space_file import load_bundled_space
 from emogen_core.rigs.identities import IDENTITIES, preset
@@ -85,6 +86,7 @@ def new(  # noqa: PLR0913 - one option a parameter
 ) -> None:
     """Write the document of a new head."""
     with plainly():
+        check_writable(out)
         shares = {"african": 0.0, "asian": 0.0, "caucasian": 0.0} | _numbers("--ancestry", ancestry.split(","))
         macros = {"sex": sex, "age": age, "weight": weight, "muscle": muscle}
         identity = Identity(name, {**macros, **shares, **_numbers("--set", set_ or _NO_DETAILS)})
@@ -107,6 +109,7 @@ def check(file: File, json_: Json = False) -> None:
 def draw(name: Name, out: Out, width: Width = 400, height: Height = 480, backend: Backend = "pyrender") -> None:
     """Draw the neutral head of a preset or of a file."""
     with plainly():
+        check_writable(out)
         space = load_bundled_space()
         picture = portrait(_found(name, space), space, width, height, backend)
         out.write_bytes(picture)

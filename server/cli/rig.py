@@ -27,7 +27,7 @@ Only = Annotated[list[str] | None, typer.Option(help="A sheet by its name; may b
 Faces = Annotated[int, typer.Option(min=1, help="How many random faces of every head are judged.")]
 Identity = Annotated[list[str] | None, typer.Option(help="A head to judge; may be repeated. All of them if left out.")]
 Workers = Annotated[int, typer.Option(min=1, help="Processes that work on the heads, one core each.")]
-Seed = Annotated[int, typer.Option(help="The same seed gives the same faces.")]
+Seed = Annotated[int, typer.Option(min=0, help="The same seed gives the same faces.")]
 Head = Annotated[str, typer.Option("--identity", help="Who is drawn; without it the rig's first identity.")]
 Genes = Annotated[list[str] | None, typer.Option("--gene", help="A gene and its value, mouthSmile=1; may be repeated.")]
 Emotion = Annotated[str, typer.Option(help="This emotion set at full strength, before --gene.")]

@@ -48,6 +48,8 @@ SENTENCES = {
 CODES = {400: "bad_request", 404: "not_found", 405: "method_not_allowed", 408: "timeout", 413: "too_large"}
 PROBLEMS = {404: "unknown", 409: "closed"}
 """Which page an error gets; all others get the page for faults of our own."""
+OWN_PAGES = frozenset({"renewed"})
+"""Codes of refusals with a page of their own."""
 
 
 def install(app: FastAPI) -> None:
@@ -70,7 +72,7 @@ def answer(request: Request, status: int, body: dict[str, Any], headers: dict[st
         return _admin(status, body, headers)
     if wants_page(request):
         pages: Pages = request.app.state.pages
-        problem = PROBLEMS.get(status, "wrong")
+        problem = body["error"]["code"] if body["error"]["code"] in OWN_PAGES else PROBLEMS.get(status, "wrong")
         html = pages.render("error.html", "en", problem=problem, reload=_way_on(request))
         return HTMLResponse(html, status, headers)
     return JSONResponse(body, status, headers)

@@ -54,6 +54,12 @@ class ConflictError(ServiceError):
     code = "conflict"
 
 
+class RenewedError(ConflictError):
+    """The face model was exchanged since a participation began, so it cannot go on."""
+
+    code = "renewed"
+
+
 class AnswerConflictError(ConflictError):
     """An answer with this id and another content was stored before."""
 

@@ -138,7 +138,8 @@ class Heads:
         Raises:
             InvalidError: the head is a child's, and children's heads are not allowed.
         """
-        changes = {"title": f"Picturing four emotions on {identity.name}", "children": children}
+        # The head's name is for those who work here: participants read the title.
+        changes = {"title": DEMO.title, "children": children}
         config = DEMO.model_copy(update={**changes, "identities": (self.signed(identity),)})
         return self.studies.create(config)
 

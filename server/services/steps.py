@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..store import runs
 from .clock import new_code, now
-from .errors import ConflictError
+from .errors import ConflictError, RenewedError
 from .evolution import Sketch, settings_of, unpack_weights
 
 if TYPE_CHECKING:
@@ -75,10 +75,10 @@ class Walk:
         """Refuse to go on with another face model than the one that this participation began with.
 
         Raises:
-            ConflictError: it was exchanged.
+            RenewedError: it was exchanged.
         """
         if self.participation.rig_hash != self.evolution.rig.hash:
-            raise ConflictError(
+            raise RenewedError(
                 "The faces of this study were renewed while you took part, so it cannot go on. "
                 "Your answers are kept; please tell whoever invited you.",
                 field="rig",
@@ -117,8 +117,14 @@ class Walk:
         return (1 if final else self.config.minimum), self.config.maximum
 
     def state(self) -> dict[str, Any]:
-        """Return the current step as the page is told it: docs/participant-interface.md."""
+        """Return the current step as the page is told it: docs/participant-interface.md.
+
+        Raises:
+            RenewedError: the faces of this step cannot be drawn any more.
+        """
         step = self.participation.step
+        if step in {"practice", "evolve"}:
+            self.check_rig()
         told: dict[str, Any] = {
             "step": step,
             "study": {

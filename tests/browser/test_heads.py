@@ -214,5 +214,5 @@ def test_without_script(desk, browser, session):
     assert page.locator("#p-age").input_value() == "70"
     page.locator("#name").fill("Seventy")
     page.get_by_role("button", name="Create a study with this head").click()
-    page.get_by_role("heading", name="Picturing four emotions on Seventy").wait_for()
+    page.get_by_role("heading", name="Picturing four emotions").wait_for()
     context.close()

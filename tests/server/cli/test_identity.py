@@ -73,3 +73,13 @@ def test_mistakes_are_one_sentence(words, message, tmp_path):
     assert message in done.stderr
     assert "Traceback" not in done.stderr
     assert not (tmp_path / "bad.json").exists()
+
+
+@pytest.mark.parametrize("words", [("new",), ("draw", "female")])
+def test_where_nothing_can_be_written_is_said_before_anything_is_done(words, tmp_path):
+    (tmp_path / "file").touch()
+    for out in (tmp_path / "file" / "a", tmp_path):
+        done = run(*words, "--out", out)
+        assert done.exit_code == 1
+        assert len(done.stderr.strip().splitlines()) == 1
+        assert "expected" in done.stderr
