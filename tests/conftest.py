@@ -37,11 +37,11 @@ class FakeDrawer:
     def key(self, identity, weights, settings):
         return portrait_key(self.rig.hash, "no look", "fake", identity, weights, settings)
 
-    def submit(self, identity, weights, settings, priority, head=None):
+    def submit(self, sketch, priority, head=None):
         future = Future()
         with self.lock:
-            self.heads[identity] = head
-            self.drawn.append((self.key(identity, weights, settings), priority))
+            self.heads[sketch.identity] = head
+            self.drawn.append((self.key(sketch.identity, sketch.weights, sketch.settings), priority))
             self.waiting.append(future)
         if not self.hold:
             self.release()

@@ -314,6 +314,7 @@ def _remembering(send: Callable[..., None]) -> Callable[..., None]:
     known: dict[str, bytes] = {}
 
     def set_uniform(name: str, value: Any) -> None:
+        """Tell a program a value that is new to it."""
         told = np.asarray(value).tobytes()
         if known.get(name) != told:
             known[name] = told

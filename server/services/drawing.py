@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from emogen_core.rendering.worn import WornHead
 
     from ..settings import Settings
+    from .evolution import Sketch
 
 
 @dataclass(frozen=True)
@@ -35,16 +36,9 @@ class PoolDrawer:
         """Return the content key of a portrait."""
         return self.pool.key(identity, weights, settings)
 
-    def submit(
-        self,
-        identity: str,
-        weights: NDArray[np.float32],
-        settings: RenderSettings,
-        priority: int,
-        head: WornHead | None = None,
-    ) -> Future[bytes]:
+    def submit(self, sketch: Sketch, priority: int, head: WornHead | None = None) -> Future[bytes]:
         """Have a portrait drawn."""
-        return self.pool.submit(identity, weights, settings, Priority(priority), head)
+        return self.pool.submit(sketch.identity, sketch.weights, sketch.settings, Priority(priority), head)
 
     def close(self) -> None:
         """End the drawing processes."""

@@ -45,14 +45,7 @@ class PortraitDrawer(Protocol):
         """Return the content key of a portrait."""
         ...
 
-    def submit(
-        self,
-        identity: str,
-        weights: NDArray[np.float32],
-        settings: RenderSettings,
-        priority: int,
-        head: WornHead | None = None,
-    ) -> Future[bytes]:
+    def submit(self, sketch: Sketch, priority: int, head: WornHead | None = None) -> Future[bytes]:
         """Have a portrait drawn; a lower `priority` goes first. Heads that the rig does not have come along."""
         ...
 
@@ -197,7 +190,7 @@ class Portraits:
     def _submit(self, sketch: Sketch, priority: int, head: WornHead | None = None) -> Future[bytes]:
         worn = head or self._wardrobe.head(sketch.identity)
         try:
-            return self._drawer.submit(sketch.identity, sketch.weights, sketch.settings, priority, worn)
+            return self._drawer.submit(sketch, priority, worn)
         except EmogenError as error:
             raise UnavailableError("Portraits cannot be drawn at the moment. Try again in a few seconds.", 5) from error
 

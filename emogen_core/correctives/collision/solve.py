@@ -127,16 +127,19 @@ class FaceSolver:
             # Judged as stored: in single precision.
             weights = np.minimum(weights + step, 1).astype(np.float32).astype(np.float64)
             rounds += 1
-            quick = left > TOLERANCE and rounds < ROUNDS
-            found = self.detect(weights, met if quick else None)
-            if quick and not found.collides:
-                quick, found = False, self.detect(weights)
-            met = met if quick else np.union1d(met, found.met)
+            found, whole = self._looked(weights, met if left > TOLERANCE and rounds < ROUNDS else None)
+            met = np.union1d(met, found.met) if whole else met
             if found.depth < depth:
-                best, depth, sure = weights, found.depth, not quick
+                best, depth, sure = weights, found.depth, whole
         depth = depth if sure else self.detect(best).depth
         # What was seen among few anchors only may not hold.
         return (best, depth, rounds) if depth <= self.before.depth else (np.zeros(_COUNT), self.before.depth, rounds)
+
+    def _looked(self, weights: NDArray[np.float64], among: NDArray[np.intp] | None) -> tuple[Detection, bool]:
+        """Detect among some anchors, and among all where these find nothing; return also whether it was among all."""
+        if among is not None and (found := self.detect(weights, among)).collides:
+            return found, False
+        return self.detect(weights), True
 
 
 def _sum(weights: NDArray[np.float64], offsets: NDArray[np.float64]) -> NDArray[np.float64]:
