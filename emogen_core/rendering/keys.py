@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from emogen_core.rendering.protocol import RenderSettings
 
 # Counted up whenever the same rig, look, weights and settings come to give other pixels (shaders, camera, encoder).
-PICTURE_VERSION = 5
+PICTURE_VERSION = 6
 
 
 def portrait_key(  # noqa: PLR0913, PLR0917 - all that a picture depends on

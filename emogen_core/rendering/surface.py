@@ -45,7 +45,8 @@ _FORWARD, _OPEN_AIR = 12.0, 0.84
 # The lamp's image on the eye: where on a wide eye that looks ahead and how large, in radii of the eyeball. It goes a
 # part of the cornea's way with the gaze, slides down under a lowered lid and goes out as the eye shuts.
 _CATCH, _WITH_GAZE = np.array([-0.17, 0.17]), 0.4
-_CATCH_SIZE, _SHUT, _OPEN = 0.105, 0.05, 0.20
+# Under half-shut lids the whole lamp would lie in the slit, a white dot: it fades before.
+_CATCH_SIZE, _SHUT, _OPEN = 0.105, 0.12, 0.34
 # How far the bust may move, millimetres, before what had faded out would show.
 _STIRRED = 3.0
 
