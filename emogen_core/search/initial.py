@@ -23,7 +23,8 @@ def initial_population(params: SearchParams, seed: int, attempt: int) -> Populat
     With ``reset="keep"`` every attempt begins with the population of the first.
     """
     if params.initialisation == "fixed":
-        return Population(_fixed(params), ("fixed",) * POPULATION, ((),) * POPULATION)
+        origin = f"fixed:{params.fixed_name}" if params.fixed_name else "fixed"
+        return Population(_fixed(params), (origin,) * POPULATION, ((),) * POPULATION)
     drawn = 0 if params.reset == "keep" else attempt
     roles = _roles(params)
     shuffled = [roles[i] for i in order(stream(seed, drawn, 0, WHOLE_POPULATION), POPULATION)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -47,6 +47,7 @@ class SearchParams:
         initialisation: "protocol", or "fixed": `fixed_population` as it stands.
         reset: a reset keeps the initial population, redraws it, or is not offered.
         fixed_population: ten genomes, only with "fixed".
+        fixed_name: which one it is, where there are several; stands in the origin of its faces.
     """
 
     gene_count: int
@@ -62,6 +63,7 @@ class SearchParams:
     initialisation: Literal["protocol", "fixed"] = "protocol"
     reset: Literal["keep", "redraw", "off"] = "keep"
     fixed_population: tuple[Genome, ...] = ()
+    fixed_name: str = ""
 
     def __post_init__(self) -> None:
         """Refuse settings that the algorithm cannot run with."""
@@ -103,6 +105,20 @@ class SearchParams:
         for name, holds, want, got in checks:
             if not holds:
                 raise InvalidInputError(f"{name}: {expected(want, got)}")
+
+    def limited(self, genes: Collection[int]) -> SearchParams:
+        """Return the same search over some of its genes; sets that lose all of theirs go.
+
+        Raises:
+            InvalidInputError: too few are left.
+        """
+        kept = frozenset(genes)
+        sets = (FaceSet(one.name, tuple(i for i in one.genes if i in kept)) for one in self.initial_sets)
+        return replace(
+            self,
+            active=tuple(i for i in self.active if i in kept),
+            initial_sets=tuple(one for one in sets if one.genes),
+        )
 
     def _is_population(self, fixed: np.ndarray | None) -> bool:
         if fixed is None:

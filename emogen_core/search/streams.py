@@ -17,6 +17,8 @@ WHOLE_POPULATION = 0
 """Stands where a slot (1 to 10) would: draws that concern the population as a whole."""
 PLACES = 11
 """Stands where a slot would: the order on screen."""
+FIXED_OPTION = 12
+"""Stands where a slot would: which of several fixed populations a trial begins with."""
 
 
 def stream(seed: int, attempt: int, generation: int, slot: int) -> np.random.Generator:
@@ -33,6 +35,11 @@ def integers(rng: np.random.Generator, below: int, count: int) -> NDArray[np.int
 def order(rng: np.random.Generator, count: int) -> NDArray[np.intp]:
     """Return a uniformly random order of 0 to `count - 1`."""
     return np.argsort(rng.random(count), kind="stable")
+
+
+def option_of(seed: int, attempt: int, count: int) -> int:
+    """Return which of `count` fixed populations (from 0) a trial begins with, drawn anew for each attempt."""
+    return int(integers(stream(seed, attempt, 0, FIXED_OPTION), count, 1)[0])
 
 
 def place_order(seed: int, attempt: int, generation: int, count: int = 10) -> tuple[int, ...]:

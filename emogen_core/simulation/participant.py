@@ -1,4 +1,4 @@
-"""A participant who selects consistently (EmoGen 2021, section IV-A)."""
+"""A participant of one search: the paper's selects consistently (EmoGen 2021, section IV-A), others as they observe."""
 
 from __future__ import annotations
 
@@ -10,35 +10,55 @@ import numpy as np
 from emogen_core.search.state import Choice
 from emogen_core.search.streams import integers, order
 from emogen_core.similarity.cosine import cosine_distance
+from emogen_core.simulation.observer import FAITHFUL
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from emogen_core.search.params import SearchParams
+    from emogen_core.simulation.observer import Observer
 
 
-def selection_count(generation: int, last: int) -> int:
-    """Return the paper's number of selections: 2 at first, 4 to generation 5, then 5, at last only the elite."""
-    if generation >= last:
-        return 1
+def selection_count(generation: int) -> int:
+    """Return the paper's number of selections: 2 at first, 4 in generations 1 to 5, then 5."""
     if generation == 0:
         return 2
     return 4 if generation <= 5 else 5
 
 
+def permitted(count: int, minimum: int, maximum: int) -> int:
+    """Return the number of selections nearest to a wanted one that a study allows."""
+    return min(max(count, minimum), maximum)
+
+
 @dataclass(frozen=True)
 class SimulatedParticipant:
-    """Judges faces by their cosine distance to ``target``, the (K,) weights in mind, without noise."""
+    """Judges faces by their cosine distance to ``target``, the (K,) weights in mind.
+
+    Attributes:
+        target: (K,) weights in mind.
+        rng: where its errors come from; no other participant may share it.
+        observer: how well it judges; without errors unless another is given.
+    """
 
     target: NDArray[np.floating]
+    rng: np.random.Generator
+    observer: Observer = FAITHFUL
 
     def distances(self, weights: NDArray[np.floating]) -> NDArray[np.float64]:
         """Return the (10,) distances of ten faces, given by their (10, K) weights."""
         return cosine_distance(weights, self.target)
 
-    def choose(self, weights: NDArray[np.floating], count: int) -> Choice:
-        """Select the ``count`` nearest faces, the nearest as elite; the first of equals wins."""
-        nearest = np.argsort(self.distances(weights), kind="stable")[:count] + 1
+    def choose(self, weights: NDArray[np.floating], count: int, places: NDArray[np.intp] | None = None) -> Choice:
+        """Select the ``count`` faces that seem nearest, the nearest as elite; the first of equals wins.
+
+        Args:
+            weights: (10, K) faces by slot.
+            count: how many.
+            places: (10,) where they are on the screen, from 0; for a participant who likes the left.
+        """
+        seen = None if places is None else places[np.newaxis]
+        nearest = self.observer.ranked(self.distances(weights)[np.newaxis], self.rng, seen)[0, :count] + 1
         return Choice(tuple(int(slot) for slot in nearest), int(nearest[0]))
 
 

@@ -1,0 +1,1 @@
+"""Statistics on recorded faces: arrays in, numbers out."""

@@ -1,0 +1,1 @@
+"""Studies of simulated people of whom the truth is known, analysed as recorded ones are: how often tests are right."""

@@ -1,0 +1,55 @@
+"""What is to be simulated, as plain data: a run can be named, sent to another process, and made there."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import asdict, dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
+
+from emogen_core.simulation.observer import Observer
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+Selections = Literal["paper", "three", "elite"]
+"""How many faces are selected: 2, then 4, then 5; always three; only the best."""
+
+
+@dataclass(frozen=True)
+class RunSpec:
+    """Searches for one target, or for one target each.
+
+    Attributes:
+        target: name of a target of the laboratory.
+        metric: name in the catalogue, by which the participant judges.
+        search: options of the search other than the rig's defaults, for example ``{"activation": (1, 3)}``.
+        selections: how many faces are selected in each generation.
+        observer: how well the participant judges.
+        algorithm: the published one, or with more selection pressure.
+        start: name of a fixed first population; empty for the protocol.
+        genes: how many genes the search has, 0 for all; the target has no others then.
+    """
+
+    target: str
+    metric: str = "cosine"
+    search: Mapping[str, Any] = field(default_factory=dict)
+    selections: Selections = "paper"
+    observer: Observer = field(default_factory=Observer)
+    algorithm: Literal["emogen", "pressure"] = "emogen"
+    start: str = ""
+    genes: int = 0
+
+    @property
+    def key(self) -> str:
+        """Return what stands for this run: equal runs have equal keys, so no table pays for another's run again."""
+        return json.dumps(asdict(self), sort_keys=True, default=list)
+
+    def entropy(self, seed: int) -> tuple[int, int]:
+        """Return the entropy of this run's numbers: the same for all runs with the same target and start.
+
+        So what is compared, settings or participants, begins with the same faces and has the same luck as far as it
+        draws the same numbers, and a difference shows in fewer searches.
+        """
+        own = hashlib.sha256(json.dumps([self.target, self.start]).encode()).digest()[:8]
+        return seed, int.from_bytes(own, "big")

@@ -1,0 +1,141 @@
+"""The noise of one search: how far from what was meant, and from each other, its results lie by chance alone.
+
+Simulated people, each with a face of their own in mind, look for it several times over. `error` is the distance of a
+result from the face in mind: the search noise, as EmoGen 2021 defines it (section IV-C). A study cannot see the face
+in mind. What it can see is `apart`, the distance of two results of one person, and `proxy`, the distance of a result
+from the mean of that person's other results (the paper's proxy target). All three are told for people who never err,
+as the paper's, for people with noise on what they judge, and for people who choose at random.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from emogen_core.errors import InvalidInputError, expected
+from emogen_core.similarity.cosine import cosine_distance
+from emogen_core.simulation.evaluation.laboratory import MEAN_HAPPY
+from emogen_core.simulation.evaluation.results import Results, Spread, averaged, spread
+from emogen_core.simulation.evaluation.specs import RunSpec
+from emogen_core.simulation.evaluation.targets import PEOPLE
+from emogen_core.simulation.evaluation.work import make
+from emogen_core.simulation.observer import FAITHFUL, Observer
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from emogen_core.simulation.evaluation.laboratory import Laboratory
+
+SEARCHES = 500
+"""As many as the paper's: ten for each of fifty people."""
+TYPICAL = ("target 2", MEAN_HAPPY)
+"""The targets of the paper's threshold: those of many genes, which people are likely to mean."""
+NOISY = Observer(noise=0.1)
+"""An observer whose judged distances have a standard deviation of .1."""
+RANDOM = Observer(lapse=1.0)
+"""Somebody who does not look."""
+
+
+@dataclass(frozen=True, slots=True)
+class Noise:
+    """The noise of a search for one kind of participant, in cosine distances.
+
+    Attributes:
+        error: of a result to the face in mind.
+        apart: of two results for the same face in mind.
+        proxy: of a result to the mean of the other results for the same face in mind.
+        settling: of the best face of each generation but the last to the result of its search.
+        right: share of choices in which the face marked as best was the nearest one.
+    """
+
+    error: Spread
+    apart: Spread
+    proxy: Spread
+    settling: tuple[Spread, ...]
+    right: float
+
+
+@dataclass(frozen=True, slots=True)
+class Threshold:
+    """The noise of a search.
+
+    Attributes:
+        searches: for each kind of participant.
+        faithful: of people who never err.
+        noisy: of people whose judged distances have a standard deviation of .1.
+        random: of people who choose at random.
+        no_answer: mean distance of the face in mind to the face whose genes are all the same, for which nobody answers.
+        paper: the error to the two faces of the paper's threshold, by a participant who never errs; 0.2 +- 0.065 there.
+    """
+
+    searches: int
+    faithful: Noise
+    noisy: Noise
+    random: Noise
+    no_answer: float
+    paper: Spread
+
+
+def threshold(laboratory: Laboratory, searches: int = SEARCHES) -> Threshold:
+    """Return the noise of the laboratory's search.
+
+    Args:
+        laboratory: a rig, a head, the search and a seed; the same ones give the same numbers.
+        searches: at least two for each of the people; rounded down to as many for each.
+
+    Raises:
+        InvalidInputError: too few searches.
+    """
+    if searches < 2 * PEOPLE:
+        raise InvalidInputError(f"searches: {expected(f'at least {2 * PEOPLE}', searches)}")
+    count = searches - searches % PEOPLE
+    kinds = [RunSpec("people", observer=observer) for observer in (FAITHFUL, NOISY, RANDOM)]
+    typical = [RunSpec(target) for target in TYPICAL]
+    results = Results(laboratory, make(laboratory, [*kinds, *typical], count))
+    paper = averaged([results.last(spec) for spec in typical])
+    faithful, noisy, random = (_noise(results, spec) for spec in kinds)
+    return Threshold(count, faithful, noisy, random, results.no_answer(kinds[0]), paper)
+
+
+def convergence(laboratory: Laboratory, size: int, observer: Observer = FAITHFUL) -> tuple[Spread, ...]:
+    """Return, for every generation, how far best faces are from the mean of the results of others who mean the same.
+
+    The rougher that mean, the further they are: 0.26 with four others, 0.22 with fifty. So what a group of people is
+    held against has to be of its own size; the last of these is `Noise.proxy` for a size of ten.
+
+    Args:
+        laboratory: as for `threshold`.
+        size: how many people mean the same face; 50 groups of them are simulated.
+        observer: how well they judge.
+
+    Raises:
+        InvalidInputError: fewer than two.
+    """
+    if size < 2:
+        raise InvalidInputError(f"size: {expected('at least 2', size)}")
+    spec = RunSpec("people", observer=observer)
+    (elites,) = make(laboratory, [spec], size * PEOPLE).values()
+    return tuple(spread(_from_others(elites.weights[:, at], elites.final)) for at in range(elites.weights.shape[1]))
+
+
+def _noise(results: Results, spec: RunSpec) -> Noise:
+    elites = results.elites(spec)
+    final, before = elites.final, elites.weights[:, :-1]
+    mine = final.reshape(-1, PEOPLE, final.shape[-1])  # search i is for person i % 50
+    rows, columns = np.triu_indices(len(mine), 1)
+    return Noise(
+        results.last(spec),
+        spread(cosine_distance(mine[rows], mine[columns]).ravel()),
+        spread(_from_others(final, final)),
+        tuple(spread(one) for one in cosine_distance(before, final[:, None]).T),
+        float(elites.right.mean()),
+    )
+
+
+def _from_others(faces: NDArray[np.float32], results: NDArray[np.float32]) -> NDArray[np.float64]:
+    """Return how far (R, K) faces are from the mean of the results of the other searches for the same person."""
+    apart = results.reshape(-1, PEOPLE, results.shape[-1])  # search i is for person i % 50
+    others = (apart.sum(0) - apart) / (len(apart) - 1)
+    return cosine_distance(faces, others.reshape(faces.shape))

@@ -1,0 +1,81 @@
+"""The noise of one search."""
+
+import numpy as np
+import pytest
+
+from emogen_core.errors import InvalidInputError
+from emogen_core.similarity.cosine import cosine_distance
+from emogen_core.simulation.evaluation.specs import RunSpec
+from emogen_core.simulation.evaluation.targets import PEOPLE
+from emogen_core.simulation.evaluation.threshold import FAITHFUL, NOISY, convergence, threshold
+from emogen_core.simulation.evaluation.work import make
+from tests.emogen_core.simulation.evaluation.laboratories import real_laboratory, small_laboratory
+
+
+def test_the_same_seed_gives_the_same_numbers():
+    one, again = (threshold(small_laboratory(), 100) for _ in range(2))
+    assert one == again
+    assert one != threshold(small_laboratory(seed=6), 100)
+
+
+def test_its_numbers_are_those_of_the_runs_told_by_person():
+    laboratory = small_laboratory()
+    spec = RunSpec("people", observer=NOISY)
+    found = threshold(laboratory, 170)
+    assert found.searches == 150
+    elites = make(laboratory, [spec], 150)[spec.key]
+    minds = laboratory.faces(laboratory.target("people"))
+    final = [elites.final[person::PEOPLE] for person in range(PEOPLE)]
+    error = [cosine_distance(one, mind) for one, mind in zip(final, minds, strict=True)]
+    apart = [[cosine_distance(one[i], one[j]) for i, j in ((0, 1), (0, 2), (1, 2))] for one in final]
+    proxy = [[cosine_distance(one[i], np.delete(one, i, 0).mean(0)) for i in range(3)] for one in final]
+    for told, wanted in ((found.noisy.error, error), (found.noisy.apart, apart), (found.noisy.proxy, proxy)):
+        assert (told.mean, told.count) == pytest.approx((np.mean(wanted), np.size(wanted)), rel=1e-5)
+        assert told.most == pytest.approx(np.quantile(wanted, 0.95), rel=1e-5)
+    settling = [cosine_distance(elites.weights[:, at], elites.final).mean() for at in range(3)]
+    assert [one.mean for one in found.noisy.settling] == pytest.approx(settling, rel=1e-5)
+    assert found.noisy.right == pytest.approx(elites.right.mean())
+
+
+def test_the_bundled_rig_has_the_noise_that_the_docs_tell():
+    found = threshold(real_laboratory())
+    assert str(found.faithful.error) == "0.289 ± 0.074"
+    assert found.faithful.right == 1
+    assert found.random.right == pytest.approx(0.1, abs=0.02)
+    for name in ("error", "apart", "proxy"):
+        means = [getattr(kind, name).mean for kind in (found.faithful, found.noisy, found.random)]
+        assert means == sorted(means), name
+    assert found.noisy.error.mean < found.no_answer < found.random.error.mean
+    assert found.paper.mean == pytest.approx(0.2295, rel=0.2), "the paper's"
+    last = [kind.settling[-1].mean for kind in (found.faithful, found.noisy, found.random)]
+    assert last == sorted(last)
+
+
+@pytest.mark.parametrize("limits", [{"maximum": 1}, {"minimum": 6}])
+def test_studies_that_limit_the_choice_have_another_one(limits):
+    assert threshold(small_laboratory(**limits), 100).faithful != threshold(small_laboratory(), 100).faithful
+
+
+def test_who_shares_a_processor_with_people_may_pause_it():
+    told = []
+    threshold(small_laboratory(pause=lambda: told.append(1)), 100)
+    assert told
+
+
+def test_fewer_than_two_searches_a_person_are_refused():
+    with pytest.raises(InvalidInputError, match="searches: expected at least 100"):
+        threshold(small_laboratory(), 99)
+
+
+def test_a_group_is_held_against_one_of_its_size():
+    laboratory = small_laboratory()
+    ten = convergence(laboratory, 10)
+    found = threshold(laboratory, 500)
+    assert len(ten) == laboratory.params.generations + 1
+    assert ten[-1] == found.faithful.proxy
+    assert convergence(laboratory, 10, NOISY)[-1] == found.noisy.proxy
+    assert ten[0].mean > ten[-1].mean
+    sizes = [convergence(laboratory, size, FAITHFUL)[-1].mean for size in (3, 6, 12, 24)]
+    assert sizes == sorted(sizes, reverse=True)
+    with pytest.raises(InvalidInputError, match="size: expected at least 2"):
+        convergence(laboratory, 1)
