@@ -15,6 +15,10 @@ class IdentityError(InvalidInputError):
     """An identity document is not one, contradicts itself, or may not be used; the message names the field."""
 
 
+class WorkerError(EmogenError):
+    """A process that shares the work was ended from outside, or cannot be reached; the message says what to do."""
+
+
 class RigFileError(EmogenError):
     """A rig or look file is damaged, foreign or of another version."""
 

@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
     from emogen_core.face.rig import Rig
@@ -31,13 +33,22 @@ def combinational_weights(rig: Rig, core: NDArray[np.float32]) -> NDArray[np.flo
         (B, number of combinations) float32 in [0, 1].
     """
     genes = core @ _mean_of_members(rig)
-    weights = np.ones((len(core), len(rig.combinations)), np.float32)
-    for column, combination in enumerate(rig.combinations):
-        for parent in rig.gene_indices(combination.parents):
-            weights[:, column] *= genes[:, parent]
+    weights = _products(genes, rig.combination_parents)
     for columns, parents in _families(rig):
         weights[:, columns] *= family_factor(genes[:, parents], weights[:, columns])[:, None]
     return weights
+
+
+def _products(genes: NDArray[np.float32], parents: Sequence[NDArray[np.integer]]) -> NDArray[np.float32]:
+    """Return the (B, k) products of the genes of each corrective, all correctives at once."""
+    most = max(map(len, parents), default=0)
+    one = genes.shape[1]  # a column of ones stands in for parents that a corrective does not have
+    places = np.array([[*some, *[one] * (most - len(some))] for some in parents], np.intp).reshape(len(parents), most)
+    filled = np.concatenate([genes, np.ones((len(genes), 1), np.float32)], axis=1)
+    products = np.ones((len(genes), len(parents)), np.float32)
+    for column in places.T:
+        products *= filled[:, column]
+    return products
 
 
 def family_factor(genes: NDArray[np.float32], products: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -50,12 +50,35 @@ def face_weights(rig: Rig, identity: str, genes: NDArray[np.float64]) -> FaceWei
         InvalidInputError: genes of a wrong shape, not finite, or outside [0, 1]; an unknown identity.
     """
     rig.neutral(identity)
-    weights = shape_weights(rig, genes)
+    return corrected_weights(rig, identity, shape_weights(rig, genes))
+
+
+def core_face_weights(rig: Rig, identity: str, core: NDArray[np.floating]) -> FaceWeights:
+    """Return the weights of all shapes for faces that are given by their core shapes, which may be one-sided.
+
+    Args:
+        rig: the face model.
+        identity: the head that wears it.
+        core: (B, C) weights of the core shapes in [0, 1].
+
+    Raises:
+        InvalidInputError: weights of a wrong shape, not finite, or outside [0, 1]; an unknown identity.
+    """
+    rig.neutral(identity)
+    return corrected_weights(rig, identity, combined_weights(rig, core))
+
+
+def corrected_weights(rig: Rig, identity: str, weights: NDArray[np.float32]) -> FaceWeights:
+    """Return a batch of (B, K) weights with collisions solved on one head; the last stage of `face_weights`.
+
+    For faces that no genome gives because their sides differ: `combined_weights` makes the weights.
+    """
     if not has_regions(rig):
         return FaceWeights(weights, None)
     collisions = solve_collisions(rig, identity, weights)
-    weights[:, -collisions.weights.shape[1] :] = collisions.weights
-    return FaceWeights(weights, collisions)
+    solved = weights.copy()
+    solved[:, -collisions.weights.shape[1] :] = collisions.weights
+    return FaceWeights(solved, collisions)
 
 
 def shape_weights(rig: Rig, genes: NDArray[np.float64]) -> NDArray[np.float32]:
@@ -72,7 +95,12 @@ def shape_weights(rig: Rig, genes: NDArray[np.float64]) -> NDArray[np.float32]:
         InvalidInputError: wrong shape, not finite, or outside [0, 1].
     """
     values = checked_weights(genes, len(rig.genes), "genes")
-    core = np.clip(values @ rig.gene_to_core, 0, 1)
+    return combined_weights(rig, np.clip(values @ rig.gene_to_core, 0, 1))
+
+
+def combined_weights(rig: Rig, core: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return (B, K) weights of all shapes from those of the core shapes, (B, C) in [0, 1]; as `shape_weights`."""
+    core = checked_weights(core, len(rig.core_shapes), "core shapes")
     combined = combinational_weights(rig, core)
     collision = np.zeros((len(core), len(rig.collision_shapes)), np.float32)
     return np.concatenate([core, combined, collision], axis=1)

@@ -71,7 +71,7 @@ def write_container(
         _add(archive, _DOCUMENT, _canonical(envelope))
         for name, array in plain.items():
             _add(archive, f"{name}.npy", _npy(array))
-    _replace(path, buffer.getvalue())
+    replace_file(path, buffer.getvalue())
     return digest
 
 
@@ -145,6 +145,17 @@ def content_hash(kind: str, version: int, document: Mapping[str, Any], arrays: M
     return digest.hexdigest()
 
 
+def replace_file(path: Path, data: bytes) -> None:
+    """Write a file in one step; of a failed attempt nothing is left. Raises `RigFileError` if it cannot be written."""
+    scratch = path.with_name(path.name + ".part")
+    try:
+        scratch.write_bytes(data)
+        scratch.replace(path)
+    except OSError as error:
+        scratch.unlink(missing_ok=True)
+        raise RigFileError(f"{path.name}: {expected('to be written', error.strerror)}") from error
+
+
 def _plain(name: str, array: NDArray[Any]) -> NDArray[Any]:
     if not _NAME.fullmatch(name):
         raise RigFileError(f"array name: {expected(f'to match {_NAME.pattern}', name)}")
@@ -167,17 +178,6 @@ def _add(archive: zipfile.ZipFile, name: str, data: bytes) -> None:
     info.create_system = 3
     info.external_attr = 0o644 << 16
     archive.writestr(info, data, compresslevel=9)
-
-
-def _replace(path: Path, data: bytes) -> None:
-    """Write a file in one step; of a failed attempt nothing is left."""
-    scratch = path.with_name(path.name + ".part")
-    try:
-        scratch.write_bytes(data)
-        scratch.replace(path)
-    except OSError as error:
-        scratch.unlink(missing_ok=True)
-        raise RigFileError(f"{path.name}: {expected('to be written', error.strerror)}") from error
 
 
 def _npy(array: NDArray[Any]) -> bytes:

@@ -142,6 +142,11 @@ class Rig:
         return worn
 
     @cached_property
+    def combination_parents(self) -> tuple[NDArray[np.intp], ...]:
+        """Indices of the parent genes of every combinational corrective."""
+        return tuple(self.gene_indices(combination.parents) for combination in self.combinations)
+
+    @cached_property
     def gene_to_core(self) -> NDArray[np.float32]:
         """(G, C) matrix of zeros and ones: which core shapes a gene drives."""
         index = {name: i for i, name in enumerate(self.core_shapes)}

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from emogen_core.cores import cores
 from emogen_core.errors import InvalidInputError, expected
 from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.face.evaluate import vertices
@@ -74,7 +75,7 @@ def bench_render(  # noqa: PLR0913, PLR0917 - all have defaults but the first
         "rounds": rounds,
         "workers": workers,
         "identity": who,
-        "cores": len(os.sched_getaffinity(0)),
+        "cores": cores(),
         "renderer": renderer,
         "pool_ms": _pool(who, weights, settings, workers),
         "step_core_ms": steps,

@@ -8,7 +8,6 @@ bounded time. A worker that dies or is late is killed and replaced, and its face
 from __future__ import annotations
 
 import heapq
-import os
 import threading
 import time
 from concurrent.futures import Future
@@ -18,6 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from emogen_core.cores import cores
 from emogen_core.errors import EmogenError, InvalidInputError, RenderingError, expected
 from emogen_core.rendering.keys import portrait_key
 from emogen_core.rendering.process import LostError, WorkerProcess
@@ -80,7 +80,7 @@ class RenderPool:
             MissingGLError: the workers cannot draw on this machine; one sentence says what to install.
             RenderingError: the workers cannot start for another reason.
         """
-        count = workers if workers is not None else len(os.sched_getaffinity(0))
+        count = workers if workers is not None else cores()
         if count < 1:
             raise InvalidInputError(f"workers: {expected('at least 1', count)}")
         self._limits = time_limit, start_limit

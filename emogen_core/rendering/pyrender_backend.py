@@ -65,15 +65,15 @@ _contexts = threading.local()
 class PyrenderRenderer:
     """Draws faces with pyrender on EGL. Use it only in the thread that made it; several may live side by side."""
 
-    def __init__(self, rig: Rig, look: Look) -> None:
-        """Open a GL context (or share the thread's) and prepare the meshes of a rig in a look.
+    def __init__(self, rig: Rig, look: Look, turn: float = 0.0) -> None:
+        """Open a GL context (or share the thread's) and prepare the meshes of a rig in a look, see `Surface`.
 
         Raises:
             MissingGLError: no usable OpenGL on this machine.
             InvalidInputError: the look does not fit the rig.
         """
         self._context = _context()
-        self.surface = Surface(rig, look)
+        self.surface = Surface(rig, look, turn)
         # A texture that goes is never one in use: every head that is drawn asks for all of its own first.
         self._textures: Recent[tuple[str, str], Any] = Recent(HEADS * len(look.layers), self._free)
         self._cameras: Recent[str, Camera] = Recent()

@@ -46,8 +46,9 @@ def _covered(
 ) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.floating]]]:
     """Yield (triangle, pixel, barycentric weights) of all covered pixels, in chunks of triangles."""
     corners = points[triangles, :2]
-    low = np.clip(np.floor(corners.min(1) - 0.5), 0, None).astype(np.intp)
-    high = np.minimum(np.ceil(corners.max(1) + 0.5), (width, height)).astype(np.intp)
+    # The pixels whose middles lie within the bounds of a triangle, and no others: most triangles cover a few.
+    low = np.clip(np.ceil(corners.min(1) - 0.5), 0, None).astype(np.intp)
+    high = np.clip(np.floor(corners.max(1) - 0.5) + 1, 0, (width, height)).astype(np.intp)
     span = np.clip(high - low, 0, None)
     area = span.prod(1)
     drawn = np.flatnonzero(area)

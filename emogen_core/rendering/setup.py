@@ -61,15 +61,15 @@ def load_dressed(rig: Path | None = None, look: Path | None = None) -> tuple[Rig
     return model, load_look(look) if look else look_for(model)
 
 
-def renderer_for(backend: str, rig: Rig, look: Look) -> Renderer:
-    """Make a renderer for a rig in a look; see `make_renderer`."""
+def renderer_for(backend: str, rig: Rig, look: Look, turn: float = 0.0) -> Renderer:
+    """Make a renderer for a rig in a look, its heads turned by some degrees; see `make_renderer` and `Surface`."""
     if backend not in BACKENDS:
         raise InvalidInputError(f"backend: {expected(f'one of {BACKENDS}', backend)}")
     if backend == "software":
         from emogen_core.rendering.software import SoftwareRenderer  # noqa: PLC0415
 
-        return SoftwareRenderer(rig, look)
+        return SoftwareRenderer(rig, look, turn)
     # Importing the backend opens the GL libraries, which need not be there.
     from emogen_core.rendering.pyrender_backend import PyrenderRenderer  # noqa: PLC0415
 
-    return PyrenderRenderer(rig, look)
+    return PyrenderRenderer(rig, look, turn)

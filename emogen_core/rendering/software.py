@@ -33,13 +33,13 @@ _DRAWN = ("skin", "eyes")
 class SoftwareRenderer:
     """Draws faces with a z-buffer in numpy; see `emogen_core.rendering.protocol.Renderer`."""
 
-    def __init__(self, rig: Rig, look: Look) -> None:
-        """Prepare for a rig in a look.
+    def __init__(self, rig: Rig, look: Look, turn: float = 0.0) -> None:
+        """Prepare for a rig in a look, see `Surface`.
 
         Raises:
             InvalidInputError: the look does not fit the rig.
         """
-        self._surface = Surface(rig, look)
+        self._surface = Surface(rig, look, turn)
         self._layers = [name for name in _DRAWN if name in look.layers]
         counts = np.cumsum([0, *(len(look.layers[name].source) for name in self._layers)])
         faces = [look.layers[name].triangles + count for name, count in zip(self._layers, counts, strict=False)]

@@ -54,14 +54,21 @@ _STIRRED = 3.0
 class Surface:
     """Computes render vertices of faces of one rig in one look."""
 
-    def __init__(self, rig: Rig, look: Look) -> None:
+    def __init__(self, rig: Rig, look: Look, turn: float = 0.0) -> None:
         """Prepare for a rig.
+
+        Args:
+            rig: the face model.
+            look: what it wears.
+            turn: degrees by which heads look to the viewer's right, about the vertical axis between the eyes. The light
+                stands still, but for shadows that were found without the turn (mouth, lids, what is baked).
 
         Raises:
             InvalidInputError: the look was made for another topology.
         """
         look.check(rig)
         self.rig, self.look = rig, look
+        self._turn = _turning(turn) if turn else None
         self._normals = NormalField(_needed(rig, look), rig.offsets.shape[1])
         names = {name: i for i, name in enumerate(rig.shape_names)}
         self._wrinkle_gains = [_gains(drivers, names) for drivers in look.wrinkle_drivers]
@@ -91,7 +98,14 @@ class Surface:
             InvalidInputError: bad weights, or an identity that the rig does not have.
         """
         for mesh, alpha in zip(vertices(self.rig, identity, weights), weights, strict=True):
-            yield self.dress(identity, alpha, mesh, self._normals(mesh))
+            rows = self.dress(identity, alpha, mesh, self._normals(mesh))
+            if self._turn is not None:
+                for layer in rows.values():
+                    layer[:, POSITION], layer[:, NORMAL] = (
+                        layer[:, POSITION] @ self._turn,
+                        layer[:, NORMAL] @ self._turn,
+                    )
+            yield rows
 
     def normals(self, mesh: NDArray[np.float32]) -> NDArray[np.float32]:
         """Return the (N, 3) unit normals of an (N, 3) mesh; zero or unfinished at vertices that no layer draws."""
@@ -122,7 +136,8 @@ class Surface:
 
     def framed_skin(self, identity: str, camera: Camera) -> NDArray[np.int32]:
         """Return the (t, 3) triangles of the skin layer that lie above where the bust has faded out."""
-        x, y, _ = self._neutral(identity).T
+        neutral = self._neutral(identity)
+        x, y, _ = (neutral if self._turn is None else neutral @ self._turn).T
         _, gone, sideward = camera.fade
         triangles = self.look.layers["skin"].triangles
         above = y - sideward * x**2 > gone - _STIRRED
@@ -210,6 +225,12 @@ class Surface:
             lamp, rows[chosen, 12] = _catch_light(centre, radius, gaze, (upper, lower))
             rows[chosen, LIGHT] = (points.T - centre) / radius - lamp
             rows[chosen, 13] = np.minimum(np.maximum(above, -1), 1)
+
+
+def _turning(degrees: float) -> NDArray[np.float32]:
+    """Return the (3, 3) matrix that turns rows to the viewer's right."""
+    cosine, sine = np.cos(np.deg2rad(degrees)), np.sin(np.deg2rad(degrees))
+    return np.array([[cosine, 0, -sine], [0, 1, 0], [sine, 0, cosine]], np.float32)
 
 
 def _catch_light(

@@ -53,7 +53,7 @@ class Fitter:
     def fit(self, point: Mapping[str, float]) -> tuple[NDArray[np.float32], Adjustment]:
         """Return the neutral (N, 3) of a point of the space, millimetres, and how its shapes differ from the rig's."""
         head = self._calm(point)
-        return head.neutral.astype(np.float32), self._adjustment(head)
+        return head.neutral.astype(np.float32), self.adjustment(head)
 
     def neutral(self, point: Mapping[str, float]) -> NDArray[np.float32]:
         """Return the neutral (N, 3) that `fit` gives, in half the time."""
@@ -83,7 +83,8 @@ class Fitter:
         low = self.space.low.astype(np.float64)
         return sealed_shapes(neutral, core, lambda mesh: self.freed(seal_lips(self._topology, low, mesh)))
 
-    def _adjustment(self, head: Head) -> Adjustment:
+    def adjustment(self, head: Head) -> Adjustment:
+        """Return how the shapes differ from the rig's on a head whose skin is clear of its eyeballs."""
         worn = worn_shapes(self._topology, self._deriver, self._pairs, head, self._core)
         worn |= self.shut(head.neutral, {name: worn[name] for name in self._core})
         names = self.rig.shape_names

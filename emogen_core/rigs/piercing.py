@@ -28,7 +28,7 @@ def piercing_edges(points: Points, triangles: Indices) -> int:
         points: (N, 3) vertices, millimetres.
         triangles: (T, 3) their indices.
     """
-    edges = _edges(triangles)
+    edges = triangle_edges(triangles)
     edge, triangle = _sharing_a_cell(points[edges], points[triangles])
     apart = (edges[edge][:, :, None] != triangles[triangle][:, None]).all((1, 2))
     edge, triangle = edge[apart], triangle[apart]
@@ -36,8 +36,8 @@ def piercing_edges(points: Points, triangles: Indices) -> int:
     return len(np.unique(edge[crossing]))
 
 
-def _edges(triangles: Indices) -> Indices:
-    """Return every (E, 2) edge once."""
+def triangle_edges(triangles: Indices) -> Indices:
+    """Return every edge of (T, 3) triangles once: (E, 2) vertices."""
     both = np.sort(np.stack([triangles, np.roll(triangles, -1, 1)], -1).reshape(-1, 2), 1)
     key = np.unique(both[:, 0].astype(np.int64) << 32 | both[:, 1])
     return np.stack([key >> 32, key & 0xFFFFFFFF], 1).astype(np.int32)

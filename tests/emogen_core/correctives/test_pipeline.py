@@ -4,7 +4,13 @@ import numpy as np
 import pytest
 
 from emogen_core.correctives.collision import solve_collisions
-from emogen_core.correctives.pipeline import face_weights, shape_weights
+from emogen_core.correctives.pipeline import (
+    combined_weights,
+    core_face_weights,
+    corrected_weights,
+    face_weights,
+    shape_weights,
+)
 from emogen_core.errors import InvalidInputError
 from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.rigs.random_faces import random_genes
@@ -62,3 +68,41 @@ def test_a_face_does_not_depend_on_its_batch():
     together = face_weights(rig, "female", genes).weights
     alone = np.concatenate([face_weights(rig, "female", row[None]).weights for row in genes])
     assert together.tobytes() == alone.tobytes()
+
+
+def test_faces_given_by_core_shapes_are_those_given_by_genes():
+    rig = load_bundled_rig()
+    genes = random_genes(rig, 6, 5)
+    core = genes.astype(np.float32) @ rig.gene_to_core
+    both = core_face_weights(rig, "male", core), face_weights(rig, "male", genes)
+    assert both[0].weights.tolist() == both[1].weights.tolist()
+
+
+def test_one_side_alone_is_a_face():
+    rig = load_bundled_rig()
+    core = np.zeros((1, len(rig.core_shapes)))
+    core[0, rig.core_shapes.index("mouthSmile.L")] = 1
+    weights = core_face_weights(rig, "female", core).weights
+    assert weights[0, : len(rig.core_shapes)].tolist() == core[0].tolist()
+    for wrong, said in (
+        (core[:, 1:], "core shapes: expected shape"),
+        (core * 2, "core shapes: expected finite values"),
+    ):
+        with pytest.raises(InvalidInputError, match=said):
+            core_face_weights(rig, "female", wrong)
+    with pytest.raises(InvalidInputError, match="identity"):
+        core_face_weights(rig, "nobody", core)
+
+
+def test_faces_with_two_sides_go_through_the_same_stages():
+    rig = load_bundled_rig()
+    genes = random_genes(rig, 5, 9)
+    core = np.clip(genes.astype(np.float32) @ rig.gene_to_core, 0, 1)
+    assert combined_weights(rig, core).tobytes() == shape_weights(rig, genes).tobytes()
+    plain = shape_weights(rig, genes)
+    before = plain.copy()
+    corrected = corrected_weights(rig, "male", plain)
+    assert corrected.weights.tobytes() == face_weights(rig, "male", genes).weights.tobytes()
+    assert plain.tobytes() == before.tobytes()
+    with pytest.raises(InvalidInputError, match=r"core shapes: expected shape \(faces, 85\)"):
+        combined_weights(rig, core[:, :-1])

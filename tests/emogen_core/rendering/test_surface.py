@@ -158,13 +158,15 @@ def test_every_gene_alone_gives_finite_rows(surface, identity):
 
 @pytest.mark.parametrize("identity", rig.identities)
 def test_the_catchlight_stays_between_the_lids_and_goes_out_with_them(surface, identity):
-    eyes = [rows_of(surface, w, identity)["eyes"] for w in (face(), face(lidsSlit=0.5), face(lidsClose=1))]
+    lids = (face(), face(lidsSlit=0.5), face(lidsClose=1), face(lidsClose=0.85))
+    eyes = [rows_of(surface, w, identity)["eyes"] for w in lids]
     heights = [lamp(rows)[1] for rows in eyes]
     strengths = [rows[:, 12].max() for rows in eyes]
     assert heights[0] >= heights[1] - 1e-6
     assert strengths[0] == pytest.approx(1)
     assert strengths[1] > 0.3
     assert strengths[2] < 0.1
+    assert strengths[3] < 0.1  # no white dot in a slit
 
 
 def lamp(rows):
@@ -285,3 +287,29 @@ def test_a_plain_look_needs_no_edges_and_no_lines():
     rows = next(iter(surface.faces("ball", np.ones((1, 1), np.float32))))
     assert list(rows) == ["skin"]
     assert np.isfinite(rows["skin"]).all()
+
+
+def test_a_turned_head_is_the_same_head_turned(surface):
+    """Its nose goes to the viewer's right; what is lit by what is as it was."""
+    turned = Surface(rig, look_for(rig), 30)
+    weights = face(jawOpen=1, gazeUp=0.5)
+    plain, other = rows_of(surface, weights), rows_of(turned, weights)
+    angle = np.deg2rad(30)
+    for name, rows in plain.items():
+        for columns, away in ((slice(0, 3), 1e-3), (slice(3, 6), 1e-5)):
+            x, y, z = rows[:, columns].T
+            wanted = np.stack([x * np.cos(angle) + z * np.sin(angle), y, z * np.cos(angle) - x * np.sin(angle)], -1)
+            np.testing.assert_allclose(other[name][:, columns], wanted, atol=away)
+        np.testing.assert_array_equal(other[name][:, 6:], rows[:, 6:])
+    nose = plain["skin"][:, 2].argmax()
+    assert other["skin"][nose, 0] > plain["skin"][nose, 0] + 5
+    np.testing.assert_array_equal(turned.neutral_skin("female"), surface.neutral_skin("female"))
+
+
+def test_a_turned_bust_is_drawn_as_far_as_it_shows(surface):
+    camera = frame_head(surface.neutral_skin("female"))
+    turned = Surface(rig, look_for(rig), 30)
+    shown = turned.framed_skin("female", camera)
+    rows = rows_of(turned, face())["skin"]
+    above = rows[:, 1] - camera.fade[2] * rows[:, 0] ** 2 > camera.fade[1]
+    assert set(np.flatnonzero(above)) <= set(shown.ravel())

@@ -1,0 +1,1 @@
+"""Feature points to expressions: sparse motion becomes weights of the rig (docs/landmarks.md)."""

@@ -1,0 +1,109 @@
+"""ARKit's 52 blendshape coefficients, as phones and MediaPipe give them, to the rig's core shapes.
+
+1 is the strongest expression of either side, so coefficients are taken over as they are. A table, not a fit: what the
+rig has no shape for is named. Left and right are the person's own, in ARKit as here.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from emogen_core.errors import InvalidInputError, expected
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from numpy.typing import NDArray
+
+    from emogen_core.face.rig import Rig
+
+    Floats = NDArray[np.float64]
+
+# ARKit name -> core shapes; {ARKit}Left goes to {shape}.L, {ARKit}Right to {shape}.R.
+_SIDED = {
+    "eyeBlink": "lidsClose",
+    "eyeLookDown": "gazeDown",
+    "eyeLookUp": "gazeUp",
+    "eyeSquint": "lidsTight",
+    "eyeWide": "lidUpperRaise",
+    "mouthSmile": "mouthSmile",
+    "mouthFrown": "mouthFrown",
+    "mouthDimple": "mouthDimple",
+    "mouthStretch": "mouthStretch",
+    "mouthPress": "mouthPress",
+    "mouthLowerDown": "lowerLipDown",
+    "mouthUpperUp": "upperLipRaise",
+    "browDown": "browDown",
+    "browOuterUp": "browOuterUp",
+    "cheekSquint": "cheekRaise",
+    "noseSneer": "noseWrinkle",
+}
+_WHOLE = {
+    "eyeLookInLeft": ("gazeRight.L",),
+    "eyeLookOutLeft": ("gazeLeft.L",),
+    "eyeLookInRight": ("gazeLeft.R",),
+    "eyeLookOutRight": ("gazeRight.R",),
+    "jawForward": ("jawThrust",),
+    "jawLeft": ("jawLeft",),
+    "jawRight": ("jawRight",),
+    "jawOpen": ("jawOpen",),
+    "mouthFunnel": ("funnelUpper", "funnelLower"),
+    "mouthPucker": ("mouthPucker",),
+    "mouthLeft": ("mouthLeft",),
+    "mouthRight": ("mouthRight",),
+    "mouthRollLower": ("lipRollLower",),
+    "mouthRollUpper": ("lipRollUpper",),
+    "mouthShrugLower": ("chinRaise",),
+    "mouthShrugUpper": ("upperLipShrug",),
+    "mouthClose": (),
+    "browInnerUp": ("browInnerUp.L", "browInnerUp.R"),
+    "cheekPuff": ("cheekPuff.L", "cheekPuff.R"),
+    "tongueOut": ("tongueOut",),
+}
+TABLE: dict[str, tuple[str, ...]] = _WHOLE | {
+    f"{name}{side}": (f"{shape}.{side[0]}",) for name, shape in _SIDED.items() for side in ("Left", "Right")
+}
+"""ARKit name -> the core shapes that take its coefficient; none for ``mouthClose``, which no gene of the rig does."""
+_ANY_CASE = {name.lower(): name for name in TABLE}
+_EXCESS = 0.5
+"""Calibrated phones report a little less than 0 and more than 1; so much is cut off, more is an error."""
+
+
+def arkit_name(column: str) -> str | None:
+    """Return the ARKit name that a column means, in whatever case (phones write ``EyeBlinkLeft``), or none."""
+    return _ANY_CASE.get(column.lower())
+
+
+def core_weights(rig: Rig, coefficients: Mapping[str, float]) -> Floats:
+    """Return (C,) weights of the core shapes in [0, 1].
+
+    Args:
+        rig: a face model with the bundled rig's shapes.
+        coefficients: ARKit name -> coefficient; what is missing is 0.
+
+    Raises:
+        InvalidInputError: an unknown name, a coefficient that is none, or a rig without these shapes.
+    """
+    index = {name: row for row, name in enumerate(rig.core_shapes)}
+    core = np.zeros(len(index))
+    for name, value in coefficients.items():
+        if name not in TABLE:
+            raise InvalidInputError(f"coefficients: {expected('ARKit names, as jawOpen', name)}")
+        if not -_EXCESS <= value <= 1 + _EXCESS:
+            raise InvalidInputError(f"{name}: {expected('a coefficient in [0, 1]', value)}")
+        core[_rows(index, TABLE[name])] = min(max(value, 0.0), 1.0)
+    return core
+
+
+def unserved(coefficients: Iterable[str]) -> list[str]:
+    """Return which ARKit names the rig has no shape for."""
+    return [name for name in coefficients if not TABLE[name]]
+
+
+def _rows(index: Mapping[str, int], shapes: tuple[str, ...]) -> list[int]:
+    missing = [shape for shape in shapes if shape not in index]
+    if missing:
+        raise InvalidInputError(f"rig: {expected('the shapes of the bundled rig', f'none for {missing}')}")
+    return [index[shape] for shape in shapes]

@@ -1,0 +1,121 @@
+"""Which expressions belong together: left and right, eyes that look the same way, correctives of an open jaw."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+from emogen_core.rigs.foreign.mirror import centre_of, mirrored
+from emogen_core.rigs.foreign.model import counted
+from emogen_core.rigs.foreign.names import ONE_SIDED, SIDEWAYS, WHOLE, meaning
+
+if TYPE_CHECKING:
+    from emogen_core.rigs.foreign.mirror import Mirror
+    from emogen_core.rigs.foreign.model import Findings, HeadModel
+
+GAZE = {
+    "left": ("eyeLookOut_L", "eyeLookIn_R"),
+    "right": ("eyeLookIn_L", "eyeLookOut_R"),
+    "up": ("eyeLookUp_L", "eyeLookUp_R"),
+    "down": ("eyeLookDown_L", "eyeLookDown_R"),
+}
+CORRECTIVES = {"mouthClose": ("jawOpen",)}
+"""Shapes that only make sense on top of others: mouthClose brings the lips together again under an open jaw."""
+
+# Below the first, shapes without known names are taken for mirror images; above the second, named ones are doubted.
+_ALIKE = 0.2
+_UNLIKE = 0.5
+
+
+@dataclass(frozen=True)
+class Pairs:
+    """Names of expressions that belong together.
+
+    Attributes:
+        sides: (left, right) of one movement of both sides, the eyes' sideways looks left out.
+        sideways: (to the left, to the right) of the whole mouth: never made together.
+        gaze: direction (``left``, ``right``, ``up``, ``down``; the head's own) -> shapes of the two eyes.
+        correctives: shape -> what it corrects.
+        standard: expression -> its name in ICT-FaceKit's vocabulary, for those that are known.
+    """
+
+    sides: tuple[tuple[str, str], ...]
+    sideways: tuple[tuple[str, str], ...]
+    gaze: dict[str, tuple[str, str]]
+    correctives: dict[str, tuple[str, ...]]
+    standard: dict[str, str]
+
+
+def find_pairs(model: HeadModel, findings: Findings) -> Pairs:
+    """Return what belongs together, by name, then by geometry; what is doubtful or lacks its half is said."""
+    meanings = {name: meaning(name) for name in model.expressions}
+    standard = {name: one.standard for name, one in meanings.items() if one.known}
+    called = {one.standard: name for name, one in meanings.items()}
+    gaze = {way: (called[a], called[b]) for way, (a, b) in GAZE.items() if a in called and b in called}
+    mirror = mirrored(model.vertices)
+    sides = _by_name(called)
+    _say_doubts(model, mirror, sides, findings)
+    sides += _by_geometry(model, mirror, {*standard, *(name for pair in sides for name in pair)}, findings)
+    sideways = tuple((called[a], called[b]) for a, b in SIDEWAYS if a in called and b in called)
+    correctives = {
+        called[name]: tuple(called[parent] for parent in parents)
+        for name, parents in CORRECTIVES.items()
+        if name in called and all(parent in called for parent in parents)
+    }
+    pairs = Pairs(tuple(sides), sideways, gaze, correctives, standard)
+    _say(pairs, tuple(model.expressions), called, findings)
+    return pairs
+
+
+def _by_name(called: dict[str, str]) -> list[tuple[str, str]]:
+    lefts = [name for name in called if name.endswith("_L") and not name.startswith(("eyeLookIn", "eyeLookOut"))]
+    return [(called[left], called[f"{left[:-2]}_R"]) for left in lefts if f"{left[:-2]}_R" in called]
+
+
+def _by_geometry(model: HeadModel, mirror: Mirror, taken: set[str], findings: Findings) -> list[tuple[str, str]]:
+    """Pair what has no known name: each with its nearest mirror image, unless it is its own."""
+    rest = {name: offsets for name, offsets in model.expressions.items() if name not in taken}
+    lone = [name for name, offsets in rest.items() if mirror.unlike(offsets, offsets) > _UNLIKE]
+    likeness = sorted((mirror.unlike(rest[a], rest[b]), a, b) for a, b in combinations(lone, 2))
+    pairs: list[tuple[str, str]] = []
+    for unlike, one, other in likeness:
+        if unlike < _ALIKE and not any({one, other} & set(pair) for pair in pairs):
+            first_left = centre_of(model.vertices, rest[one])[0] > 0
+            pairs.append((one, other) if first_left else (other, one))
+            findings.guessed.append(f"{one} and {other} are left and right of one movement, by their shape.")
+    return pairs
+
+
+def _say_doubts(model: HeadModel, mirror: Mirror, sides: list[tuple[str, str]], findings: Findings) -> None:
+    for left, right in sides:
+        unlike = mirror.unlike(model.expressions[left], model.expressions[right])
+        if unlike > _UNLIKE:
+            findings.guessed.append(
+                f"{left} and {right} are a pair by name, though they differ by {unlike:.0%} from mirror images."
+            )
+
+
+def _say(pairs: Pairs, names: tuple[str, ...], called: dict[str, str], findings: Findings) -> None:
+    findings.found.append(f"{len(pairs.sides)} left and right pairs.")
+    if pairs.gaze:
+        findings.found.append(
+            "Eyes look together " + ", ".join(f"{w} ({a}, {b})" for w, (a, b) in pairs.gaze.items()) + "."
+        )
+    for name, parents in pairs.correctives.items():
+        findings.found.append(f"{name} is a corrective of {', '.join(parents)}.")
+    own = [name for name in names if name not in pairs.standard]
+    if own:
+        findings.found.append(f"{len(own)} expressions have names of their own: {counted(own)}.")
+    half = [
+        name for name in called if name[:-2] in ONE_SIDED and name[-2:] in ("_L", "_R") and _other(name) not in called
+    ]
+    if half:
+        findings.missing.append(f"The other side of {counted([called[name] for name in half])}.")
+    absent = [name for name in (*ONE_SIDED, *WHOLE) if not {name, f"{name}_L", f"{name}_R"} & set(called)]
+    if absent:
+        findings.missing.append(f"{len(absent)} of ARKit's movements: {counted(absent)}.")
+
+
+def _other(name: str) -> str:
+    return name[:-1] + ("R" if name[-1] == "L" else "L")

@@ -1,0 +1,93 @@
+"""The head that reference expressions are drawn on: one that the rig wears, or a neutral from a file."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from trimesh.registration import procrustes
+
+from emogen_core.errors import InvalidInputError, expected
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from emogen_core.face.rig import Rig
+
+# Heads differ by a few percent of their size, vertices in another order by all of it.
+_FURTHEST = 0.25
+_LATIN = "latin-1"  # reads anything: names of materials are in any code, numbers are in ASCII
+
+
+def target_head(rig: Rig, target: str) -> tuple[Rig, str]:
+    """Return a rig that wears a head, and the name under which it does.
+
+    Args:
+        rig: the face model.
+        target: one of its identities, the path of an OBJ file with the same vertices, or empty for its first identity.
+
+    Raises:
+        InvalidInputError: neither an identity nor such a file.
+    """
+    if not target:
+        return rig, rig.identities[0]
+    if target in rig.neutrals:
+        return rig, target
+    if not Path(target).is_file():
+        wanted = f"one of {list(rig.identities)} or an OBJ file"
+        raise InvalidInputError(f"target: {expected(wanted, target)}")
+    name = Path(target).stem
+    mesh = aligned(read_positions(Path(target)), rig.neutral(rig.identities[0]))
+    return replace(rig, neutrals={**rig.neutrals, name: mesh.astype(np.float32)}), name
+
+
+def read_positions(path: Path) -> NDArray[np.float64]:
+    """Return the (n, 3) positions of an OBJ file, in its order and unit; faces, normals and colours are passed over.
+
+    Raises:
+        InvalidInputError: the file cannot be read, or a position is not three finite numbers.
+    """
+    try:
+        lines = path.read_text(_LATIN).splitlines()
+    except OSError as error:
+        raise InvalidInputError(f"target: {expected('an OBJ file', f'{path} ({error.strerror})')}") from error
+    rows = [line.split()[1:4] for line in lines if line.startswith(("v ", "v\t"))]
+    try:
+        found = np.array(rows, np.float64).reshape(len(rows), 3)
+    except ValueError as error:
+        wanted = expected("three numbers after each v of an OBJ file", f"{path} ({error})")
+        raise InvalidInputError(f"target: {wanted}") from None
+    if not np.isfinite(found).all():
+        bad = int(np.flatnonzero(~np.isfinite(found).all(1))[0])
+        raise InvalidInputError(f"target: {expected('finite positions', f'{rows[bad]} at vertex {bad} of {path}')}")
+    return found
+
+
+def aligned(mesh: NDArray[np.float64], template: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return a mesh moved, turned and scaled onto a template, so that heads in any unit have the same place and size.
+
+    Args:
+        mesh: (n, 3).
+        template: (N, 3), millimetres.
+
+    Raises:
+        InvalidInputError: the vertices are not those of the template, in the same order.
+    """
+    if len(mesh) != len(template):
+        raise InvalidInputError(
+            f"target: {expected(f'{len(template)} vertices', len(mesh))}; it has to be the rig's mesh, vertex by vertex"
+        )
+    size = float(np.sqrt(((template - template.mean(0)) ** 2).sum(1).mean()))
+    moved: NDArray[np.float64]
+    if not np.ptp(mesh, axis=0).any():
+        raise InvalidInputError(f"target: {expected('a head', 'all vertices in one place')}")
+    _, moved, _ = procrustes(mesh, template.astype(np.float64), reflection=False)
+    away = float(np.sqrt(((moved - template) ** 2).sum(1).mean())) / size
+    if away > _FURTHEST:
+        wanted = expected(
+            "the rig's vertices in the rig's order", f"vertices {100 * away:.0f} % of the head's size away"
+        )
+        raise InvalidInputError(f"target: {wanted}; export it without reordering vertices")
+    return moved

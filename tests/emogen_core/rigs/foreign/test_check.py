@@ -1,0 +1,123 @@
+"""What cannot become a rig is refused, and the message names the part or the shape."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from emogen_core.errors import InvalidInputError
+from emogen_core.rigs.foreign import check
+from emogen_core.rigs.foreign.check import check_model
+from emogen_core.rigs.foreign.model import Findings
+from tests.emogen_core.rigs.foreign.heads import made_head
+
+head = made_head()
+
+
+def refused(model, why):
+    with pytest.raises(InvalidInputError, match=why) as told:
+        check_model(model, Findings())
+    return str(told.value)
+
+
+def with_triangles(part, change):
+    triangles = head.triangles.copy()
+    rows = slice(*head.parts[part])
+    triangles[rows] = change(triangles[rows].copy())
+    return replace(head, triangles=triangles)
+
+
+def test_a_good_head_passes():
+    findings = Findings()
+    check_model(head, findings)
+    assert findings == Findings()
+
+
+def test_nothing_to_move():
+    refused(replace(head, expressions={}), "got none")
+
+
+@pytest.mark.parametrize("name", ["", "  ", "a\nb", "x" * 65, 7])
+def test_names_that_are_none(name):
+    refused(replace(head, expressions={**head.expressions, name: head.expressions["jawOpen"]}), "1 to 64 letters")
+
+
+def test_names_of_which_none_is_known():
+    unknown = {f"shape {i}": offsets for i, offsets in enumerate(head.expressions.values())}
+    assert "shape 3" in refused(replace(head, expressions=unknown), "names of ARKit")
+    check_model(replace(head, expressions=unknown | {"jawOpen": head.expressions["jawOpen"]}), Findings())
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_numbers_that_are_not_finite(value):
+    for field in ("expressions", "identity_modes"):
+        values = head.expressions["jawOpen"].copy()
+        values[17, 1] = value
+        refused(replace(head, **{field: {**head.expressions, "mine": values}}), "mine: .*vertex 17, and 0 more")
+    vertices = head.vertices.copy()
+    vertices[[3, 9]] = value
+    refused(replace(head, vertices=vertices), "neutral: .*vertex 3, and 1 more")
+
+
+@pytest.mark.parametrize("field", ["expressions", "identity_modes"])
+def test_movements_longer_than_the_head(field):
+    far = head.expressions["jawOpen"] * np.float32(12.6)
+    refused(
+        replace(head, **{field: {**head.expressions, "mine": far}}), "mine: expected movements shorter .* 250, got 252"
+    )
+    check_model(replace(head, **{field: {**head.expressions, "mine": far / 1.02}}), Findings())
+
+
+def test_edges_of_three_triangles():
+    def change(rows):
+        rows[1] = rows[0][[0, 1, 2]]
+        rows[2] = rows[0]
+        return rows
+
+    refused(with_triangles("EyeLeft", change), "part EyeLeft: expected edges of one or two triangles, got 3 edges")
+
+
+def test_one_triangle_that_faces_the_other_way():
+    def change(rows):
+        rows[5] = rows[5][::-1]
+        return rows
+
+    refused(with_triangles("TeethUpper", change), "part TeethUpper: expected neighbours that face the same way, got 3")
+
+
+def test_a_triangle_with_a_corner_twice():
+    def change(rows):
+        rows[5, 1] = rows[5, 0]
+        return rows
+
+    refused(with_triangles("EyeRight", change), "part EyeRight: expected triangles of three vertices, got 1")
+
+
+@pytest.mark.parametrize("part", ["Face", "EyeLeft", "TeethLower"])
+def test_a_part_inside_out(part):
+    refused(with_triangles(part, lambda rows: rows[:, ::-1]), f"part {part}: expected its front outside")
+
+
+def test_open_skin_is_judged_and_other_open_parts_are_not():
+    first, last = head.parts["Face"]
+    opened = head.triangles.copy()
+    opened[first:last] = opened[first:last, ::-1]
+    keep = np.ones(len(opened), bool)
+    keep[first : first + 3] = False
+    parts = {"Face": (0, last - 3), **{n: (a - 3, b - 3) for n, (a, b) in head.parts.items() if n != "Face"}}
+    refused(replace(head, triangles=opened[keep], parts=parts), "part Face: expected its front")
+    # The same surface as the lining of a mouth, which rightly faces inwards.
+    lining = {"mouth" if name == "Face" else name: rows for name, rows in parts.items()} | {"skin": (0, 0)}
+    check_model(replace(head, triangles=opened[keep], parts=lining), Findings())
+
+
+@pytest.mark.parametrize(("limit", "value"), [("MAX_VERTICES", 100), ("MAX_SHAPES", 5)])
+def test_limits(monkeypatch, limit, value):
+    monkeypatch.setattr(check, limit, value)
+    refused(head, f"at most .*{value}")
+
+
+def test_what_moves_nothing_is_said():
+    findings = Findings()
+    check_model(replace(head, expressions={**head.expressions, "tongueOut": 0 * head.vertices}), findings)
+    assert findings.missing == ["1 expressions move nothing: tongueOut."]
