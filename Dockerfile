@@ -2,6 +2,7 @@ FROM python:3.12-slim-bookworm AS build
 WORKDIR /src
 COPY pyproject.toml README.md LICENSE NOTICE ./
 COPY emogen_core emogen_core
+COPY emogen_client emogen_client
 COPY server server
 COPY static static
 COPY templates templates

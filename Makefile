@@ -25,12 +25,12 @@ check: $(VENV)/.test ## lint, format, types, import rules
 bench: $(VENV)/.test ## measure drawing and turnaround on this machine
 	$(BIN)/emogen bench render --json
 	$(BIN)/emogen bench turnaround --json
-	$(BIN)/python -m tests.browser.turnaround
 
 install: $(VENV)/.serve ## install Emogen into .venv without starting it
 
 screenshots: $(VENV)/.test ## draw docs/screenshots anew in a real browser
 	$(BIN)/python -m tests.browser.screenshots docs/screenshots
+	$(BIN)/python -m tests.browser.desk docs/screenshots
 
 rig: $(VENV)/.test ## bake the bundled rig and its look anew from the CC0 sources, and draw its sheets
 	$(BIN)/emogen rig build

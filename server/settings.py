@@ -41,11 +41,26 @@ class Settings(BaseSettings):
     portrait_memory_mb: int = Field(
         default=64, ge=1, description="Portraits kept in memory, beside those in the data folder."
     )
-    body_limit_bytes: int = Field(default=262_144, ge=1024, description="Largest request body that is read.")
+    body_limit_bytes: int = Field(
+        default=262_144,
+        ge=1024,
+        description="Largest request body that is read; study files and the form of a study may have 5 MiB.",
+    )
     body_timeout_seconds: float = Field(default=30.0, gt=0, description="How long a client may take to send a body.")
     session_hours: int = Field(default=12, ge=1, description="How long a sign-in to the admin pages lasts.")
     login_attempts: int = Field(
-        default=5, ge=1, description="Wrong passwords for one e-mail address before it has to wait 15 minutes."
+        default=5,
+        ge=1,
+        description="Wrong passwords for one e-mail address before it has to wait 15 minutes; 1000 for all together"
+        " make everybody wait who signs in.",
+    )
+    redirect_hosts: str = Field(
+        default="app.prolific.com,app.prolific.co,www.mturk.com,workersandbox.mturk.com,.sona-systems.com",
+        description="Hosts that a study may send participants back to, with commas; .example.org stands for every host"
+        " below example.org.",
+    )
+    joins_per_minute: int = Field(
+        default=600, ge=1, description="People who may begin by one link within a minute; who comes then waits."
     )
     log_level: Literal["debug", "info", "warning", "error"] = Field(
         default="info", description="How much is written to standard error."

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from . import bench, doctor, export, identity, rig, serve, simulate
+from . import analyse, bench, doctor, evaluate, export, identity, landmarks, replay, rig, serve, simulate, study
 
 app = typer.Typer(
     help="Measure the facial expression a person has in mind.", no_args_is_help=True, pretty_exceptions_enable=False
@@ -13,6 +13,11 @@ app.command("serve")(serve.serve)
 app.command("doctor")(doctor.doctor)
 app.command("simulate")(simulate.simulate)
 app.command("export")(export.export)
+app.command("replay")(replay.replay)
+app.command("analyse")(analyse.analyse)
+app.add_typer(evaluate.app, name="evaluate")
 app.add_typer(rig.app, name="rig")
 app.add_typer(identity.app, name="identity")
+app.add_typer(landmarks.app, name="landmarks")
+app.add_typer(study.app, name="study")
 app.add_typer(bench.app, name="bench")

@@ -2,22 +2,35 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
 import tempfile
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from threadpoolctl import threadpool_limits
 
+from emogen_core.cores import cores
+from emogen_core.face.bundled import load_bundled_rig
+from emogen_core.face.rig_file import load_rig
+
+from .bench_analysis import bench_analysis
+from .bench_export import bench_export
+from .bench_landmarks import bench_landmarks, landmarks_text
+from .bench_monitor import bench_monitor
+from .bench_packing import bench_packing
+from .bench_simulate import bench_simulate
+from .bench_transfer import bench_transfer
+from .chromium import chromium
 from .common import load_settings, opened, plainly
-from .local import serving
+from .local import served
 from .turnaround import measure
 
 app = typer.Typer(help="Measure this machine.", no_args_is_help=True)
 
 Rounds = Annotated[int, typer.Option(min=1, help="How many measurements.")]
-Pause = Annotated[float, typer.Option(min=0, help="Seconds that the participant looks at the faces.")]
+Generations = Annotated[int, typer.Option(min=1, help="How many choices.")]
+Look = Annotated[float, typer.Option(min=0.5, help="Seconds that the participant looks at ten faces.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 
 
@@ -37,15 +50,97 @@ def render(
         _print(bench_render(lambda *face: face_weights(*face).weights, faces, size, rounds), json_)
 
 
+@app.command("simulate")
+def simulate(
+    repetitions: Annotated[int, typer.Option(min=1, help="Searches of ten generations.")] = 500,
+    rounds: Rounds = 5,
+    json_: Json = False,
+) -> None:
+    """Measure simulated searches by cosine on the bundled face model, on one core."""
+    with threadpool_limits(1):
+        _print(bench_simulate(repetitions, rounds), json_)
+
+
+@app.command("analysis")
+def analysis(
+    runs: Annotated[int, typer.Option(min=1, help="Studies of each design.")] = 200,
+    people: Annotated[int, typer.Option(min=5, help="People of a group, where groups are compared.")] = 8,
+    json_: Json = False,
+) -> None:
+    """Count how often the tests of the published designs are significant where they should not be, and should."""
+    with threadpool_limits(1):
+        _print(bench_analysis(runs, people), json_)
+
+
+@app.command("packing")
+def packing(
+    rig: Annotated[Path | None, typer.Option(help="A rig file; the bundled one if left out.")] = None,
+    rounds: Rounds = 9,
+    json_: Json = False,
+) -> None:
+    """Measure expression packing on one core, loading not counted, and count the expressions that a rig needs."""
+    with plainly(), threadpool_limits(1):
+        _print(bench_packing(load_rig(rig) if rig else load_bundled_rig(), rounds), json_)
+
+
+@app.command("landmarks")
+def landmarks(
+    expressions: Annotated[int, typer.Option(min=1, help="Expressions of each set, none of them in the bank.")] = 20,
+    seed: Annotated[int, typer.Option(min=0, help="Of expressions, noise and genetic algorithm.")] = 1,
+    json_: Json = False,
+) -> None:
+    """Measure how well feature points become a face, by every method, on one core."""
+    with threadpool_limits(1):
+        report = bench_landmarks(expressions, seed)
+    typer.echo(json.dumps(report, indent=2) if json_ else landmarks_text(report))
+
+
+@app.command("transfer")
+def transfer(
+    rig: Annotated[Path | None, typer.Option(help="A rig file; the bundled one if left out.")] = None,
+    seeds: Annotated[int, typer.Option(min=1, help="Heads of known shapes.")] = 3,
+    rounds: Rounds = 5,
+    json_: Json = False,
+) -> None:
+    """Measure how near shapes on another head come to true ones by each method, and the time on one core."""
+    with plainly(), threadpool_limits(1):
+        _print(bench_transfer(load_rig(rig) if rig else load_bundled_rig(), seeds, rounds), json_)
+
+
 @app.command("turnaround")
-def turnaround(rounds: Rounds = 20, pause: Pause = 1.0, json_: Json = False) -> None:
-    """Measure a choice: from sending it to having ten new decoded portraits, over HTTP, one participant."""
+def turnaround(generations: Generations = 30, look: Look = 1.5, json_: Json = False) -> None:
+    """Measure a choice in Chromium, on `emogen serve` as shipped: to ten new decoded portraits, and where it goes."""
+    with tempfile.TemporaryDirectory() as name, chromium() as browser:
+        with served(Path(name)) as server:
+            found = measure(browser, server.address, server.links[0], generations, look)
+        _print({"cores": cores(), "look_s": look, **found}, json_)
+
+
+@app.command("monitor")
+def monitor(
+    participations: Annotated[int, typer.Option(min=1, help="Participations of the study that is looked at.")] = 5000,
+    generations: Annotated[int, typer.Option(min=4, help="Generations of each, over four face sets.")] = 40,
+    studies: Annotated[int, typer.Option(min=1, help="Studies of the list.")] = 200,
+    rounds: Rounds = 9,
+    json_: Json = False,
+) -> None:
+    """Measure the monitor of a large study and the list of many, on a database that is filled for it."""
     with tempfile.TemporaryDirectory() as folder:
         settings = load_settings(data_dir=Path(folder), database_url="", port=0)
-        with opened(settings) as house:
-            study = house.studies.demo()
-            with serving(house) as address:
-                _print(asyncio.run(measure(address, study.links[0], rounds, pause)), json_)
+        with opened(settings, drawing=False) as house:
+            _print(bench_monitor(house, participations, generations, studies, rounds), json_)
+
+
+@app.command("export")
+def export(
+    rows: Annotated[int, typer.Option(min=1, help="Faces of the study that is exported.")] = 100_000,
+    json_: Json = False,
+) -> None:
+    """Measure the export in every format on one core: rows a second, and memory above that of an idle process."""
+    with tempfile.TemporaryDirectory() as folder:
+        settings = load_settings(data_dir=Path(folder), database_url="", port=0)
+        with opened(settings, drawing=False) as house:
+            _print(bench_export(house, rows), json_)
 
 
 def _print(report: dict[str, Any], as_json: bool) -> None:

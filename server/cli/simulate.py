@@ -9,50 +9,68 @@ from typing import Annotated
 import httpx2
 import typer
 
+from emogen_core.errors import expected
 from emogen_core.face.bundled import load_bundled_rig
+from emogen_core.simulation.observer import Observer
 
 from ..app import create_app
-from ..services.simulation import Report, Simulation
+from ..services.studies.simulation import Report, Simulation
+from ..services.trials.evolution import params_of
 from .common import load_settings, opened, plainly, stop
 
 Count = Annotated[int, typer.Option(min=1, max=10_000, help="How many.")]
 Study = Annotated[str, typer.Option(help="Id of the study.")]
 Link = Annotated[str | None, typer.Option(help="Last part of a participant link; with --url.")]
-Seed = Annotated[int, typer.Option(help="The same seed gives the same participants and the same faces.")]
+Seed = Annotated[int, typer.Option(min=0, help="The same seed gives the same participants and the same faces.")]
 Url = Annotated[str | None, typer.Option(help="A running server; without it the study runs in this process.")]
 Token = Annotated[str | None, typer.Option(envvar="EMOGEN_TOKEN", help="Token for simulations; with --url.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+Noise = Annotated[float, typer.Option(min=0, help="Standard deviation of the error of every judged distance.")]
+Lapse = Annotated[float, typer.Option(min=0, max=1, help="Chance that a choice is made at random.")]
+Drift = Annotated[float, typer.Option(min=0, help="Step that every gene in mind takes after a generation (sd).")]
+Left = Annotated[float, typer.Option(help="How much nearer the first place seems than the last.")]
 
 
 def simulate(  # noqa: PLR0913, PLR0917 - typer reads the options from the signature
     participants: Count = 1, study: Study = "demo", seed: Seed = 0,
-    url: Url = None, link: Link = None, token: Token = None, json_: Json = False,
+    url: Url = None, link: Link = None, token: Token = None,
+    noise: Noise = 0, lapse: Lapse = 0, drift: Drift = 0, left: Left = 0, json_: Json = False,
 ) -> None:  # fmt: skip
     """Send simulated participants through a study; they are marked as simulated in the data."""
+    with plainly():
+        observer = Observer(noise, lapse, drift, left)
     if url is None:
-        report = _here(study, participants, seed)
+        report = _here(study, participants, seed, observer)
     elif link is None or token is None:
         raise stop("With --url, give --link and --token as well (the admin pages show both).")
     else:
         with plainly():
-            report = asyncio.run(_there(url, link, token, participants, seed))
+            report = asyncio.run(_there(url, link, token, participants, seed, observer))
     typer.echo(json.dumps(report.plain(), indent=2) if json_ else report.text())
 
 
-def _here(study: str, participants: int, seed: int) -> Report:
+def _here(study: str, participants: int, seed: int, observer: Observer) -> Report:
     with opened(load_settings(), drawing=False) as house:
         if study == "demo":
             house.studies.ensure_one()
         summary = house.studies.summary(study)
-        token = house.tokens.create("emogen simulate", ["simulate"], days=1)
+        token = house.tokens.create("emogen simulate", ["simulate"], study=summary.id, days=1)
         client = _client("http://emogen.local", httpx2.ASGITransport(create_app(house)))
-        send = Simulation(client, summary.links[0], token, seed, house.journal.rig)
+        rig, config = house.journal.rig, house.life.config(summary.id)
+        send = Simulation(client, summary.links[0], token, seed, rig, observer, params_of(rig, config))
         return asyncio.run(_run(client, send, participants))
 
 
-async def _there(url: str, link: str, token: str, participants: int, seed: int) -> Report:
-    client = _client(url, None)
-    return await _run(client, Simulation(client, link, token, seed, load_bundled_rig()), participants)
+async def _there(  # noqa: PLR0913, PLR0917 - where, how many, and how they judge
+    url: str, link: str, token: str, participants: int, seed: int, observer: Observer
+) -> Report:
+    try:
+        client = _client(url, None)
+        return await _run(client, Simulation(client, link, token, seed, load_bundled_rig(), observer), participants)
+    except (httpx2.HTTPError, httpx2.InvalidURL) as error:
+        raise stop(
+            f"--url: {expected('a running Emogen server', f'{url} ({error or type(error).__name__})')}"
+        ) from error
 
 
 def _client(url: str, transport: httpx2.ASGITransport | None) -> httpx2.AsyncClient:

@@ -19,4 +19,6 @@ def the_house(request: Request) -> House:
     return house
 
 
+PROOF = "emogen_own"
+"""The cookie of the browser that took a place under a recruiter's id (services/participation/returning.py)."""
 Services = Annotated[House, Depends(the_house)]

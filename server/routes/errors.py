@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import logging
 from http import HTTPStatus
 from typing import TYPE_CHECKING, Any
 
@@ -10,23 +11,28 @@ from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
 from starlette.responses import HTMLResponse, JSONResponse, RedirectResponse, Response
 
+from ..services.config import preferred
 from ..services.errors import (
     ConflictError,
     ForbiddenError,
     InvalidError,
     NotFoundError,
     ServiceError,
+    StorageError,
     ThrottledError,
     UnauthorisedError,
     UnavailableError,
 )
-from .desk import page
+from .admin.desk import SESSION, page
+from .wanted import wanted_languages
 
 if TYPE_CHECKING:
     from fastapi import FastAPI
     from starlette.requests import Request
 
     from ..texts.pages import Pages
+
+logger = logging.getLogger(__name__)
 
 STATUS: dict[type[ServiceError], int] = {
     NotFoundError: 404,
@@ -48,6 +54,8 @@ SENTENCES = {
 CODES = {400: "bad_request", 404: "not_found", 405: "method_not_allowed", 408: "timeout", 413: "too_large"}
 PROBLEMS = {404: "unknown", 409: "closed"}
 """Which page an error gets; all others get the page for faults of our own."""
+STORAGE_RETRY = 5
+"""Seconds after which a request that found no room may come again."""
 OWN_PAGES = frozenset({"renewed"})
 """Codes of refusals with a page of their own."""
 
@@ -55,6 +63,7 @@ OWN_PAGES = frozenset({"renewed"})
 def install(app: FastAPI) -> None:
     """Answer every error in the one shape."""
     app.add_exception_handler(ServiceError, _service)
+    app.add_exception_handler(StorageError, _storage)
     app.add_exception_handler(RequestValidationError, _validation)
     app.add_exception_handler(HTTPException, _http)
 
@@ -69,11 +78,12 @@ def error_body(status: int, **details: Any) -> dict[str, Any]:
 def answer(request: Request, status: int, body: dict[str, Any], headers: dict[str, str] | None = None) -> Response:
     """Return an error as JSON, or as a page to a browser that asked for one."""
     if request.url.path.startswith("/admin"):
-        return _admin(status, body, headers)
+        return _admin(request, status, body, headers)
     if wants_page(request):
         pages: Pages = request.app.state.pages
         problem = body["error"]["code"] if body["error"]["code"] in OWN_PAGES else PROBLEMS.get(status, "wrong")
-        html = pages.render("error.html", "en", problem=problem, reload=_way_on(request))
+        words = pages.catalogue(preferred(pages.languages, wanted_languages(request)))
+        html = pages.render("error.html", words, problem=problem, reload=_way_on(request))
         return HTMLResponse(html, status, headers)
     return JSONResponse(body, status, headers)
 
@@ -83,10 +93,10 @@ def status_of(error: ServiceError) -> int:
     return next((code for kind, code in STATUS.items() if isinstance(error, kind)), 400)
 
 
-def _admin(status: int, body: dict[str, Any], headers: dict[str, str] | None) -> Response:
+def _admin(request: Request, status: int, body: dict[str, Any], headers: dict[str, str] | None) -> Response:
     if status == 401:
         return RedirectResponse("/admin/login", 303)
-    response = page("error", status, message=body["error"]["message"])
+    response = page("error", status, message=body["error"]["message"], known=SESSION in request.cookies)
     response.headers.update(headers or {})
     return response
 
@@ -110,6 +120,13 @@ async def _service(request: Request, error: Exception) -> Response:
     if status == 401:
         headers["WWW-Authenticate"] = "Bearer"
     return answer(request, status, error.body(), headers)
+
+
+async def _storage(request: Request, error: Exception) -> Response:
+    """Nothing was stored, and the same request may come again: a full disk is the server's own trouble."""
+    logger.error("the database cannot be used: %s", error)
+    body = UnavailableError("The server cannot store anything at the moment. Nothing was stored. Try again.").body()
+    return answer(request, 503, body, {"Retry-After": str(STORAGE_RETRY)})
 
 
 async def _validation(request: Request, error: Exception) -> Response:

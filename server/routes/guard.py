@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import re
 import time
 import uuid
 from typing import TYPE_CHECKING
+from urllib.parse import unquote_to_bytes
 
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.requests import Request
 
+from ..services.config.files import MOST_BYTES
 from .errors import answer, error_body
 
 if TYPE_CHECKING:
@@ -42,6 +45,10 @@ HEADERS = {
     "Cross-Origin-Opener-Policy": "same-origin",
     "Permissions-Policy": "camera=(), geolocation=(), microphone=()",
 }
+LARGE = re.compile(r"/admin/studies/(import|[^/]+/design)")
+"""Where a study file may arrive, or the form of a whole study."""
+LARGE_BYTES = 2 * MOST_BYTES + 2**20
+"""A file and a text of the size that is allowed, and what is around them; what is too long, the page says."""
 TRANSPORT = "max-age=31536000; includeSubDomains"
 
 
@@ -51,6 +58,7 @@ class Guard:
     def __init__(self, app: ASGIApp, settings: Settings) -> None:
         self._app = app
         self._limit = settings.body_limit_bytes
+        self._large = max(self._limit, LARGE_BYTES)
         self._patience = settings.body_timeout_seconds
         self._headers = {**HEADERS, "Strict-Transport-Security": TRANSPORT} if settings.secure else HEADERS
 
@@ -79,24 +87,25 @@ class Guard:
     async def _body(self, scope: Scope, receive: Receive) -> list[bytes] | int:
         """Return the whole body, or the status of its refusal: nothing behind this reads more than the limit."""
         length = Headers(scope=scope).get("content-length", "0")
-        if not length.isdigit() or "\0" in scope["path"]:
+        if not length.isdigit() or _has_nul(scope):
             return 400
-        if int(length) > self._limit:
+        limit = self._large if LARGE.fullmatch(scope["path"]) else self._limit
+        if int(length) > limit:
             return 413
         try:
             async with asyncio.timeout(self._patience):
-                return await self._read(receive)
+                return await self._read(receive, limit)
         except TimeoutError:
             return 408
 
-    async def _read(self, receive: Receive) -> list[bytes] | int:
+    async def _read(self, receive: Receive, limit: int) -> list[bytes] | int:
         parts: list[bytes] = []
         while True:
             message = await receive()
             if message["type"] != "http.request":
                 return 400
             parts.append(message.get("body", b""))
-            if sum(map(len, parts)) > self._limit:
+            if sum(map(len, parts)) > limit:
                 return 413
             if not message.get("more_body", False):
                 return parts
@@ -133,10 +142,15 @@ class _Exchange:
         logger.info("request", extra={**extra, "path": public_path(self._scope["path"])})
 
 
+def _has_nul(scope: Scope) -> bool:
+    """Return whether an address has the one character that no text of it may hold: PostgreSQL cannot look for it."""
+    return "\0" in scope["path"] or b"\0" in unquote_to_bytes(scope["query_string"])
+
+
 def public_path(path: str) -> str:
-    """Return a path without the token in it: whoever reads the log must not be able to answer for a participant."""
+    """Return a path without the token or link in it: who reads the log must not be able to answer for a participant."""
     parts = path.split("/")
-    return "/".join([*parts[:2], "…", *parts[3:]]) if len(parts) > 2 and parts[1] == "p" else path
+    return "/".join([*parts[:2], "…", *parts[3:]]) if len(parts) > 2 and parts[1] in {"p", "s"} else path
 
 
 def _replay(parts: list[bytes], receive: Receive) -> Receive:

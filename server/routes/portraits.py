@@ -32,6 +32,9 @@ async def portrait(key: Key, request: Request, house: Services) -> Response:
     if picture is None:
         promise = await run_in_threadpool(house.portraits.request, key)
         picture = await within(promise, house.settings.portrait_wait_seconds)
+    took = house.portraits.drawing_ms(key)
+    if took is not None:
+        headers["Server-Timing"] = f"draw;dur={took:.1f}"
     if _known(request.headers.get("if-none-match", ""), key):
         return Response(status_code=304, headers=headers)
     return Response(picture, media_type="image/png", headers=headers)

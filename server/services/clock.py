@@ -5,7 +5,12 @@ from __future__ import annotations
 import hashlib
 import secrets
 import uuid
+from contextlib import contextmanager
 from datetime import UTC, datetime
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
 
 # No vowels and no look-alikes: codes are read aloud and typed, and must not spell words.
 _CODE_LETTERS = "23456789BCDFGHJKMNPQRSTVWXZ"
@@ -13,7 +18,30 @@ _CODE_LETTERS = "23456789BCDFGHJKMNPQRSTVWXZ"
 
 def now() -> datetime:
     """Return the present moment in UTC."""
+    return _told()
+
+
+def local(moment: datetime) -> datetime:
+    """Return a moment in the time zone of this machine, for pages that show the time of day (TZ sets it)."""
+    return moment.astimezone()
+
+
+@contextmanager
+def told_by(clock: Callable[[], datetime]) -> Iterator[None]:
+    """Let another clock tell the time to all services while the block runs: for rehearsals and tests."""
+    global _told  # noqa: PLW0603 - one clock for the whole process is the point
+    before, _told = _told, clock
+    try:
+        yield
+    finally:
+        _told = before
+
+
+def _system() -> datetime:
     return datetime.now(UTC)
+
+
+_told: Callable[[], datetime] = _system
 
 
 def new_id() -> str:

@@ -2,7 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from ..store import engine
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+
+StorageError = engine.StorageError
+"""The store cannot read or write at the moment; routes, which do not know the store, answer it as well."""
 
 
 class ServiceError(Exception):
@@ -31,9 +40,25 @@ class NotFoundError(ServiceError):
 
 
 class InvalidError(ServiceError):
-    """The content is not acceptable; nothing was stored."""
+    """The content is not acceptable; nothing was stored. `problems` has all that is wrong, where that is known."""
 
     code = "invalid"
+    problems: Sequence[Any] = ()
+
+
+class DeviceError(InvalidError):
+    """The study does not admit this device; `reason` is phone or small. The same link works on another one."""
+
+    code = "device"
+
+    def __init__(self, reason: str, expected: str, got: str) -> None:
+        super().__init__(
+            "This study cannot be done on this device. Open the same link on another one, or in a larger window.",
+            field="viewport",
+            expected=expected,
+            got=got,
+        )
+        self.reason = reason
 
 
 class UnauthorisedError(ServiceError):
@@ -52,6 +77,31 @@ class ConflictError(ServiceError):
     """The request does not fit the state that things are in."""
 
     code = "conflict"
+
+
+class FullError(ConflictError):
+    """No place is left in the study, or none of the kind that was asked for."""
+
+    code = "full"
+
+    def __init__(self) -> None:
+        super().__init__("This study has enough participants now. Thank you for your interest.")
+
+
+class ClosedError(ConflictError):
+    """Nobody can begin now: the study is a draft, paused or closed, or the link is closed."""
+
+    code = "closed"
+    _SENTENCES: ClassVar[dict[str, str]] = {
+        "draft": "This study has not begun yet.",
+        "paused": "This study is paused. Nobody can begin at the moment.",
+        "closed": "This study is over. Thank you for your interest.",
+        "link_closed": "This link is closed. Ask whoever sent it to you for another one.",
+    }
+
+    def __init__(self, standing: str) -> None:
+        super().__init__(self._SENTENCES[standing])
+        self.standing = standing
 
 
 class RenewedError(ConflictError):

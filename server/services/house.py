@@ -8,28 +8,50 @@ from typing import TYPE_CHECKING
 from ..store import studies
 from ..store.engine import Database
 from ..store.migrate import upgrade
-from .accounts import Accounts
-from .answers import Answers
-from .export import Exports
-from .heads import Heads
-from .joining import Joining
-from .journal import Journal
-from .participation import Participations
-from .portrait_files import PortraitFiles
-from .portraits import Portraits
-from .renewal import renew_portraits
-from .replay import Replay
-from .studies import Studies
-from .tailor import HouseTailor
-from .tokens import Tokens
-from .wardrobe import Wardrobe
+from .config.way_back import host_list
+from .faces.heads import Heads
+from .faces.portrait_files import PortraitFiles
+from .faces.portraits import Portraits
+from .faces.tailor import HouseTailor
+from .faces.thumbnails import Thumbnails
+from .faces.wardrobe import Wardrobe
+from .housekeeping import Housekeeping
+from .participation.answers import Answers
+from .participation.joining import Joining
+from .participation.journal import Journal
+from .participation.participation import Participations
+from .participation.previews import Previews
+from .participation.replay.stored import Replay
+from .participation.withdrawal import Withdrawals
+from .people.accounts import Accounts
+from .people.people import People
+from .people.tokens import Tokens
+from .people.trail import Trail
+from .reports.analyses.analyses import Analyses
+from .reports.analyses.analyst import Analyst
+from .reports.monitor.monitor import Monitor
+from .reports.monitor.overview import Overview
+from .reports.participants.record import Records
+from .reports.participants.roster import Roster
+from .reports.results.noise import NoiseOfSearch
+from .reports.results.results import StudyResults
+from .reports.tables.export import Exports
+from .studies.editing.editor import Editor
+from .studies.editing.making import Making
+from .studies.life import StudyLife
+from .studies.recruiting import Recruiting
+from .studies.removal import Removal
+from .studies.simulations import Simulations
+from .studies.starting import Starting
+from .studies.studies import Studies
+from .upkeep import Upkeep
 
 if TYPE_CHECKING:
     from emogen_core.face.rig import Rig
 
     from ..settings import Settings
-    from .portraits import PortraitDrawer
-    from .wardrobe import Tailor
+    from .faces.portraits import PortraitDrawer
+    from .faces.wardrobe import Tailor
 
 
 @dataclass(frozen=True)
@@ -42,11 +64,33 @@ class House:
     answers: Answers
     participations: Participations
     studies: Studies
+    life: StudyLife
+    starting: Starting
+    removal: Removal
+    recruiting: Recruiting
     heads: Heads
+    editor: Editor
+    making: Making
     accounts: Accounts
+    people: People
+    trail: Trail
+    upkeep: Upkeep
     tokens: Tokens
     exports: Exports
     replay: Replay
+    previews: Previews
+    roster: Roster
+    records: Records
+    noise: NoiseOfSearch
+    results: StudyResults
+    analyst: Analyst
+    analyses: Analyses
+    thumbnails: Thumbnails
+    withdrawals: Withdrawals
+    monitor: Monitor
+    overview: Overview
+    simulations: Simulations
+    housekeeping: Housekeeping
 
     @property
     def database(self) -> Database:
@@ -65,6 +109,12 @@ class House:
 
     def close(self) -> None:
         """Stop drawing and close the database."""
+        self.housekeeping.close()
+        self.noise.close()
+        self.analyst.stop()
+        self.analyses.close()
+        self.monitor.close()
+        self.simulations.close()
         self.journal.wardrobe.close()
         self.portraits.close()
         self.database.close()
@@ -76,21 +126,48 @@ def build_house(settings: Settings, rig: Rig, drawer: PortraitDrawer, tailor: Ta
     files = PortraitFiles(settings.data_dir / "portraits")
     wardrobe = Wardrobe(rig, tailor or HouseTailor(rig), settings.portrait_wait_seconds)
     portraits = Portraits(drawer, files, database, wardrobe, settings.portrait_memory_mb * 2**20)
-    journal = Journal(database, rig, portraits, wardrobe)
-    renew_portraits(journal)
-    making = Studies(journal)
+    journal = Journal(database, rig, portraits, wardrobe, host_list(settings.redirect_hosts))
+    previews = Previews(journal)
+    noise = NoiseOfSearch(rig, settings.data_dir / "noise")
+    making, tokens = Studies(journal), Tokens(database)
+    accounts = Accounts(database, settings.session_hours, settings.login_attempts)
+    joining = Joining(journal, settings.joins_per_minute)
+    exports, analyst = Exports(database), Analyst()
+    life, heads = StudyLife(journal, making), Heads(rig, wardrobe, portraits)
     return House(
-        settings,
-        journal,
-        Joining(journal),
-        Answers(journal),
-        Participations(journal),
-        making,
-        Heads(journal, making),
-        Accounts(database, settings.session_hours, settings.login_attempts),
-        Tokens(database),
-        Exports(database),
-        Replay(journal),
+        settings=settings,
+        journal=journal,
+        joining=joining,
+        answers=Answers(journal),
+        participations=Participations(journal),
+        studies=making,
+        life=life,
+        starting=Starting(database, settings.address),
+        removal=Removal(journal),
+        recruiting=Recruiting(database, settings.address),
+        heads=heads,
+        editor=Editor(life, heads),
+        making=Making(making, life),
+        accounts=accounts,
+        people=People(database),
+        trail=Trail(database),
+        upkeep=Upkeep(settings, journal),
+        tokens=tokens,
+        exports=exports,
+        replay=Replay(journal),
+        previews=previews,
+        roster=Roster(database),
+        records=Records(journal, noise),
+        noise=noise,
+        results=StudyResults(journal, noise),
+        analyst=analyst,
+        analyses=Analyses(database, exports, analyst),
+        thumbnails=Thumbnails(portraits),
+        withdrawals=Withdrawals(journal),
+        monitor=Monitor(database),
+        overview=Overview(database),
+        simulations=Simulations(journal, tokens),
+        housekeeping=Housekeeping(journal, (previews.sweep, accounts.sweep, joining.sweep)),
     )
 
 

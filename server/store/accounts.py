@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from sqlalchemy import func, select, update
+from sqlalchemy import delete, func, select, update
 
 from .admin_tables import ApiToken, SetupToken, Throttle, User, UserSession
 
@@ -23,6 +23,11 @@ def user_count(tx: Tx) -> int:
 def user_by_email(tx: Tx, email: str) -> User | None:
     """Return the user of an e-mail address."""
     return tx.scalar(select(User).where(User.email == email))
+
+
+def somebody(tx: Tx, user_id: str) -> User | None:
+    """Return a user by id."""
+    return tx.get(User, user_id)
 
 
 def setup_token(tx: Tx, token_hash: str) -> SetupToken | None:
@@ -71,6 +76,20 @@ def live_api_tokens(tx: Tx, at: datetime) -> Sequence[ApiToken]:
     ).all()
 
 
-def throttle(tx: Tx, key: str) -> Throttle | None:
-    """Return the failed sign-ins of a key, locked."""
-    return tx.scalar(select(Throttle).where(Throttle.key == key).with_for_update())
+def throttle(tx: Tx, key: str, *, lock: bool = False) -> Throttle | None:
+    """Return the failed sign-ins of a key; with `lock`, nobody else counts until this transaction ends."""
+    query = select(Throttle).where(Throttle.key == key)
+    return tx.scalar(query.with_for_update() if lock else query)
+
+
+def failures(tx: Tx, since: datetime) -> tuple[int, datetime | None]:
+    """Return how many failed sign-ins began to count after a moment, of all keys, and when the first one did."""
+    first = func.min(Throttle.since, type_=Throttle.since.type)
+    row = tx.execute(select(func.coalesce(func.sum(Throttle.failures), 0), first).where(Throttle.since > since)).one()
+    return int(row[0]), row[1]
+
+
+def forget_throttles(tx: Tx, before: datetime) -> int:
+    """Forget the failed sign-ins that began to count before a moment; return of how many keys."""
+    gone = tx.scalars(delete(Throttle).where(Throttle.since <= before).returning(Throttle.key))
+    return len(gone.all())

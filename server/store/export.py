@@ -1,21 +1,56 @@
-"""One query a table of the export; rows come one by one, in a fixed order."""
+"""One query a table of the export; its rows come by pages of whole participations, in a fixed order.
+
+JSON comes as the text that it is stored as: most of it is only passed on.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from sqlalchemy import ColumnElement, Select, func, literal, select
+from sqlalchemy import ColumnElement, Select, String, and_, case, cast, func, literal, select
 
-from .runs_tables import ChoiceRecord, Event, Face, Generation, Participation, Rating, Trial
+from .roster import KINDS
+from .runs_tables import (
+    ChoiceRecord,
+    Event,
+    Face,
+    Generation,
+    Participation,
+    Rating,
+    Response,
+    Stimulus,
+    Trial,
+)
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from sqlalchemy import RowMapping
+    from collections.abc import Sequence
+    from datetime import datetime
 
     from .engine import Tx
 
-BATCH = 500
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """Which participations of a study are exported, and which of their trials; empty fields restrict nothing.
+
+    `kind` is people, pilot or simulated. Times are of arrival, the first one included and the second one not.
+    `since` is a revision: participations that changed after it.
+    """
+
+    study_id: str
+    condition: str = ""
+    kind: str = ""
+    arrived_from: datetime | None = None
+    arrived_before: datetime | None = None
+    block: str = ""
+    emotion: str = ""
+    since: int | None = None
+
+
+def _text(column: Any) -> Any:
+    return cast(column, String).label(column.key)
+
 
 _WHO = (
     Participation.study_id,
@@ -24,7 +59,7 @@ _WHO = (
     Participation.simulated,
     Participation.pilot,
 )
-_TRIAL = (Trial.id.label("trial"), Trial.emotion, Trial.practice)
+_TRIAL = (Trial.id.label("trial"), Trial.block, Trial.emotion, Trial.practice)
 _WHEN = (Generation.attempt, Generation.number.label("generation"))
 
 
@@ -32,8 +67,10 @@ def _participations() -> Select[*tuple[Any, ...]]:
     columns = (
         *_WHO,
         Participation.number, Participation.rig_hash, Participation.algorithm, Participation.condition,
-        Participation.seed, Participation.trial_order, Participation.recruiter, Participation.step,
-        Participation.outcome, Participation.arrived_at, Participation.consented_at, Participation.last_answer_at,
+        Participation.head, Participation.order_row, Participation.language, Participation.seed,
+        _text(Participation.trial_order), _text(Participation.recruiter),
+        _text(Participation.device), Participation.step, Participation.outcome,
+        Participation.arrived_at, Participation.consented_at, Participation.last_answer_at,
         Participation.ended_at, Participation.erased_at,
     )  # fmt: skip
     return select(*columns).order_by(Participation.number)
@@ -71,10 +108,11 @@ def _generations() -> Select[*tuple[Any, ...]]:
 
 def _faces() -> Select[*tuple[Any, ...]]:
     columns = (
-        Face.id.label("face"), Face.slot, Face.place, Face.origin, Face.parents, Face.identity, Face.portrait_key,
-        Face.genes, Face.weights, Face.collided_lips, Face.collided_teeth, Face.depth_before.label("depth_before_mm"),
-        Face.depth_after.label("depth_after_mm"), Participation.rig_hash, ChoiceRecord.selected.label("_selected"),
-        ChoiceRecord.elite_face_id.label("_elite"),
+        Face.id.label("face"), Face.slot, Face.place, Face.origin, _text(Face.parents), Face.identity,
+        Face.portrait_key, Face.genes, Face.weights, Face.collided_lips, Face.collided_teeth,
+        Face.depth_before.label("depth_before_mm"),
+        Face.depth_after.label("depth_after_mm"), Participation.rig_hash, _text(ChoiceRecord.selected),
+        case((ChoiceRecord.id.is_not(None), ChoiceRecord.elite_face_id == Face.id)).label("elite"),
     )  # fmt: skip
     return (
         _of_generations(*columns)
@@ -86,10 +124,11 @@ def _faces() -> Select[*tuple[Any, ...]]:
 
 def _choices() -> Select[*tuple[Any, ...]]:
     columns = (
-        ChoiceRecord.selected, ChoiceRecord.elite_face_id.label("elite"), ChoiceRecord.arrived_at,
+        _text(ChoiceRecord.selected), ChoiceRecord.elite_face_id.label("elite"), ChoiceRecord.arrived_at,
         ChoiceRecord.requested_ms, ChoiceRecord.decoded_ms, ChoiceRecord.onset_ms, ChoiceRecord.chosen_ms,
         ChoiceRecord.hidden_ms, ChoiceRecord.viewport_width, ChoiceRecord.viewport_height, ChoiceRecord.pixel_ratio,
-        ChoiceRecord.tile_width, ChoiceRecord.tile_height, ChoiceRecord.input,
+        ChoiceRecord.tile_width, ChoiceRecord.tile_height, ChoiceRecord.input, ChoiceRecord.drawn_ms,
+        ChoiceRecord.none_is_close,
     )  # fmt: skip
     return _of_generations(*columns).join(ChoiceRecord, ChoiceRecord.generation_id == Generation.id)
 
@@ -114,6 +153,35 @@ def _ratings() -> Select[*tuple[Any, ...]]:
     )
 
 
+def _stimuli() -> Select[*tuple[Any, ...]]:
+    columns = (
+        *_WHO, *_TRIAL, Stimulus.id.label("stimulus"), Stimulus.item, Stimulus.source, Stimulus.name,
+        Stimulus.emotion.label("meant"), Stimulus.identity, _text(Stimulus.made_from),
+        Stimulus.portrait_key, Stimulus.genes, Stimulus.weights, Participation.rig_hash,
+    )  # fmt: skip
+    return (
+        select(*columns)
+        .join(Trial, Trial.participation_id == Participation.id)
+        .join(Stimulus, Stimulus.trial_id == Trial.id)
+        .order_by(Participation.number, Trial.position, Stimulus.item)
+    )
+
+
+def _responses() -> Select[*tuple[Any, ...]]:
+    columns = (
+        *_WHO, *_TRIAL, Trial.kind, Response.item, Response.stimulus_id.label("stimulus"), Response.question,
+
+        _text(Response.value), _text(Response.expected), Response.arrived_at, Response.onset_ms, Response.answered_ms,
+        Response.hidden_ms,
+    )  # fmt: skip
+    return (
+        select(*columns)
+        .join(Trial, Trial.participation_id == Participation.id)
+        .join(Response, Response.trial_id == Trial.id)
+        .order_by(Participation.number, Trial.position, Response.item, Response.question)
+    )
+
+
 QUERIES = {
     "participations": _participations,
     "trials": _trials,
@@ -122,17 +190,71 @@ QUERIES = {
     "choices": _choices,
     "events": _events,
     "ratings": _ratings,
+    "stimuli": _stimuli,
+    "responses": _responses,
 }
 
 
-def rows(tx: Tx, table: str, study_id: str) -> Iterator[RowMapping]:
-    """Yield the rows of a table, a batch in memory at a time."""
-    query = QUERIES[table]().where(Participation.study_id == study_id)
-    result = tx.execute(query.execution_options(yield_per=BATCH, stream_results=True))
-    yield from result.mappings()
+def chosen(tx: Tx, wanted: Wanted) -> Sequence[int]:
+    """Return the numbers of the participations that are wanted; an experimenter's previews are not data."""
+    return tx.scalars(select(Participation.number).where(*_conditions(wanted)).order_by(Participation.number)).all()
 
 
-def count(tx: Tx, table: str, study_id: str) -> int:
-    """Return how many rows a table has."""
-    query = QUERIES[table]().where(Participation.study_id == study_id).order_by(None)
-    return int(tx.scalar(select(func.count()).select_from(query.subquery())) or 0)
+def page(tx: Tx, table: str, wanted: Wanted, numbers: Sequence[int]) -> tuple[list[str], Sequence[Sequence[Any]]]:
+    """Return the names of the columns of a table and its rows for some participations."""
+    query = _query(table, wanted).where(
+        Participation.study_id == wanted.study_id, Participation.number.in_(numbers), Participation.preview.is_(False)
+    )
+    # By the connection: the session looks for objects in rows that are none, a quarter of the time of a page.
+    result = tx.connection().execute(query)
+    return list(result.keys()), result.all()
+
+
+def counts(tx: Tx, wanted: Wanted) -> dict[str, int]:
+    """Return how many rows each table has."""
+    return {table: _count(tx, _query(table, wanted).where(*_conditions(wanted))) for table in QUERIES}
+
+
+def changed(tx: Tx, wanted: Wanted, numbers: Sequence[int], revision: int) -> Sequence[str]:
+    """Return those of some participations that changed after a revision."""
+    query = select(Participation.id).where(
+        Participation.study_id == wanted.study_id, Participation.number.in_(numbers), Participation.revision > revision
+    )
+    return tx.scalars(query.order_by(Participation.number)).all()
+
+
+def number_of(tx: Tx, study_id: str, participation_id: str) -> int | None:
+    """Return the number of a participation of a study."""
+    query = select(Participation.number).where(Participation.study_id == study_id, Participation.id == participation_id)
+    return tx.scalar(query)
+
+
+def trial_names(tx: Tx, study_id: str) -> tuple[Sequence[str], Sequence[str]]:
+    """Return the blocks and the emotions that trials of a study have; an experimenter's previews are not data."""
+    return _different(tx, study_id, Trial.block), _different(tx, study_id, Trial.emotion)
+
+
+def _different(tx: Tx, study_id: str, column: Any) -> Sequence[str]:
+    query = select(column).join(Participation, Trial.participation_id == Participation.id).distinct().order_by(column)
+    return tx.scalars(query.where(*_conditions(Wanted(study_id)), column != "")).all()
+
+
+def _count(tx: Tx, query: Select[*tuple[Any, ...]]) -> int:
+    return tx.scalar(select(func.count()).select_from(query.order_by(None).subquery())) or 0
+
+
+def _query(table: str, wanted: Wanted) -> Select[*tuple[Any, ...]]:
+    query = QUERIES[table]()
+    if table == "participations":
+        return query
+    query = query.where(Trial.block == wanted.block) if wanted.block else query
+    return query.where(Trial.emotion == wanted.emotion) if wanted.emotion else query
+
+
+def _conditions(wanted: Wanted) -> list[ColumnElement[bool]]:
+    found = [and_(Participation.study_id == wanted.study_id, Participation.preview.is_(False))]
+    found += [Participation.condition == wanted.condition] if wanted.condition else []
+    found += [KINDS[wanted.kind]] if wanted.kind else []
+    found += [Participation.arrived_at >= wanted.arrived_from] if wanted.arrived_from else []
+    found += [Participation.arrived_at < wanted.arrived_before] if wanted.arrived_before else []
+    return found + ([Participation.revision > wanted.since] if wanted.since is not None else [])

@@ -4,12 +4,28 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from sqlalchemy import delete, func, select
+from sqlalchemy import String, cast, delete, func, select
+from sqlalchemy.exc import IntegrityError
 
-from .runs_tables import Answer, ChoiceRecord, Event, Face, Generation, Participation, Rating, Trial
+from .runs_tables import (
+    Answer,
+    ChoiceRecord,
+    Event,
+    Face,
+    Generation,
+    Participation,
+    Rating,
+    Response,
+    Stimulus,
+    Trial,
+)
+from .standing import is_here
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
+    from datetime import datetime
+
+    from sqlalchemy import Select
 
     from .engine import Tx
 
@@ -20,9 +36,9 @@ def participation_by_token(tx: Tx, token_hash: str, *, lock: bool = False) -> Pa
     return tx.scalar(query.with_for_update() if lock else query)
 
 
-def participation(tx: Tx, participation_id: str) -> Participation | None:
-    """Return a participation."""
-    return tx.get(Participation, participation_id)
+def participation(tx: Tx, participation_id: str, *, lock: bool = False) -> Participation | None:
+    """Return a participation; with `lock`, nobody else changes it until this transaction ends."""
+    return tx.get(Participation, participation_id, with_for_update=True if lock else None)
 
 
 def participation_ids(tx: Tx, study_id: str) -> Sequence[str]:
@@ -33,13 +49,73 @@ def participation_ids(tx: Tx, study_id: str) -> Sequence[str]:
 
 def participation_by_withdrawal(tx: Tx, code: str) -> Participation | None:
     """Return the participation that has this withdrawal code."""
-    return tx.scalar(select(Participation).where(Participation.withdrawal_code == code).with_for_update())
+    return tx.scalar(select(Participation).where(Participation.withdrawal_code == code))
 
 
 def joined(tx: Tx, study_id: str) -> int:
     """Return how many participations a study has had."""
-    highest = select(func.coalesce(func.max(Participation.number), -1)).where(Participation.study_id == study_id)
-    return int(tx.scalar(highest) or 0) + 1
+    highest = select(func.max(Participation.number)).where(
+        Participation.study_id == study_id, Participation.preview.is_(False)
+    )
+    found = tx.scalar(highest)
+    return 0 if found is None else found + 1
+
+
+def preview_number(tx: Tx, study_id: str) -> int:
+    """Return a number for a preview: below zero, where it takes none from people."""
+    lowest = select(func.min(Participation.number)).where(Participation.study_id == study_id)
+    return min(tx.scalar(lowest) or 0, 0) - 1
+
+
+def previews(tx: Tx, *, lock: bool = False) -> Sequence[Participation]:
+    """Return the previews that are running or were left behind; with `lock`, those that nobody is changing."""
+    query = select(Participation).where(Participation.preview.is_(True))
+    return tx.scalars(query.with_for_update(skip_locked=True) if lock else query).all()
+
+
+def unconsented(tx: Tx, moment: datetime) -> Sequence[Participation]:
+    """Return who left before consent, whose place ran out before a moment, and of whom something is still kept."""
+    kept = (cast(Participation.recruiter, String) != "{}") | (cast(Participation.device, String) != "{}")
+    query = select(Participation).where(
+        Participation.outcome.is_(None),
+        Participation.consented_at.is_(None),
+        Participation.lease_until < moment,
+        Participation.preview.is_(False),
+        kept,
+    )
+    return tx.scalars(query.with_for_update(skip_locked=True)).all()
+
+
+def joined_since(tx: Tx, study_id: str, link_id: str, moment: datetime) -> int:
+    """Return how many people took a place by a link since a moment."""
+    query = select(func.count()).where(
+        Participation.study_id == study_id,
+        Participation.link_id == link_id,
+        Participation.arrived_at > moment,
+        Participation.simulated.is_(False),
+        Participation.preview.is_(False),
+    )
+    return tx.scalar(query) or 0
+
+
+def held_places(tx: Tx, study_id: str, like: Participation, moment: datetime) -> Sequence[tuple[str, str, int, int]]:
+    """Return condition, head, row and number of the places that are taken: complete, or running on a lease.
+
+    Real, pilot and simulated people are counted apart, each among those that are `like` them; previews not at all.
+    """
+    row = func.coalesce(Participation.order_row, 0)
+    query = (
+        select(Participation.condition, Participation.head, row, func.count())
+        .where(
+            Participation.study_id == study_id,
+            Participation.preview.is_(False),
+            Participation.simulated == like.simulated,
+            Participation.pilot == like.pilot,
+            (Participation.outcome == "complete") | is_here(moment),
+        )
+        .group_by(Participation.condition, Participation.head, row)
+    )
+    return [(found[0], found[1], int(found[2]), int(found[3])) for found in tx.execute(query)]
 
 
 def trials(tx: Tx, participation_id: str) -> Sequence[Trial]:
@@ -50,6 +126,22 @@ def trials(tx: Tx, participation_id: str) -> Sequence[Trial]:
 def trial_at(tx: Tx, participation_id: str, position: int) -> Trial | None:
     """Return the trial at a position."""
     return tx.scalar(select(Trial).where(Trial.participation_id == participation_id, Trial.position == position))
+
+
+def faces_reached(tx: Tx, participation: Participation) -> int:
+    """Return how many faces a participation has made or is at, practice aside."""
+    query = select(func.count()).where(
+        Trial.participation_id == participation.id,
+        Trial.position <= participation.position,
+        Trial.kind == "evolve",
+        Trial.practice.is_(False),
+    )
+    return tx.scalar(query) or 0
+
+
+def stimuli(tx: Tx, trial_id: str) -> Sequence[Stimulus]:
+    """Return the faces that a trial shows to be judged, in their order."""
+    return tx.scalars(select(Stimulus).where(Stimulus.trial_id == trial_id).order_by(Stimulus.item)).all()
 
 
 def generation_of(tx: Tx, trial_id: str, attempt: int, number: int) -> Generation | None:
@@ -75,20 +167,20 @@ def faces_on_screen(tx: Tx, trial: Trial) -> Sequence[Face]:
     ).all()
 
 
-def running_with(tx: Tx, rig_hash: str) -> Sequence[Participation]:
-    """Return the participations that are running on a rig."""
+def running_with(tx: Tx, rig_hash: str) -> Sequence[str]:
+    """Return the ids of the participations that are running on a rig."""
     return tx.scalars(
-        select(Participation).where(Participation.outcome.is_(None), Participation.rig_hash == rig_hash)
+        select(Participation.id).where(Participation.outcome.is_(None), Participation.rig_hash == rig_hash)
     ).all()
 
 
-def faces_in_view(tx: Tx, participation: Participation) -> list[Face]:
-    """Return the faces that a participation's present page shows."""
+def faces_in_view(tx: Tx, participation: Participation) -> list[Face | Stimulus]:
+    """Return the faces that a participation's present page shows, and those of the rest of its trial."""
     trial = trial_at(tx, participation.id, participation.position)
     if trial is None or trial.started_at is None:
         return []
     final = face(tx, trial.final_face_id) if trial.final_face_id else None
-    return [*faces_on_screen(tx, trial), *([final] if final else [])]
+    return [*faces_on_screen(tx, trial), *stimuli(tx, trial.id), *([final] if final else [])]
 
 
 def face(tx: Tx, face_id: str) -> Face | None:
@@ -101,17 +193,38 @@ def faces(tx: Tx, ids: Collection[str]) -> Sequence[Face]:
     return tx.scalars(select(Face).where(Face.id.in_(ids))).all()
 
 
-def face_with_portrait(tx: Tx, key: str) -> tuple[Face, str] | None:
-    """Return a face that has this portrait, and the version of the study that says how it is drawn."""
-    row = tx.execute(
-        select(Face, Participation.version_id)
+def simulated_faces(tx: Tx, ids: Collection[str], study_id: str | None) -> Sequence[Face]:
+    """Return those of the faces with these ids that simulated participants were offered, of one study or of all."""
+    query = (
+        select(Face)
+        .join(Generation, Generation.id == Face.generation_id)
+        .join(Trial, Trial.id == Generation.trial_id)
+        .join(Participation, Participation.id == Trial.participation_id)
+        .where(Face.id.in_(ids), Participation.simulated.is_(True))
+    )
+    return tx.scalars(query if study_id is None else query.where(Participation.study_id == study_id)).all()
+
+
+def portrait_row(tx: Tx, key: str) -> tuple[Face | Stimulus, Participation] | None:
+    """Return a face that has this portrait, and a participation whose study says how it is drawn."""
+    offered = (
+        select(Face, Participation)
         .join(Generation, Generation.id == Face.generation_id)
         .join(Trial, Trial.id == Generation.trial_id)
         .join(Participation, Participation.id == Trial.participation_id)
         .where(Face.portrait_key == key)
-        .limit(1)
-    ).first()
-    return None if row is None else (row[0], row[1])
+    )
+    judged = (
+        select(Stimulus, Participation)
+        .join(Trial, Trial.id == Stimulus.trial_id)
+        .join(Participation, Participation.id == Trial.participation_id)
+        .where(Stimulus.portrait_key == key)
+    )
+    for query in (offered, judged):
+        row = tx.execute(query.limit(1)).first()
+        if row is not None:
+            return row[0], row[1]
+    return None
 
 
 def answer(tx: Tx, participation_id: str, answer_id: str) -> Answer | None:
@@ -140,11 +253,28 @@ def generations_with_faces(tx: Tx, trial_id: str) -> list[tuple[Generation, Sequ
     ]
 
 
+def delete_preview(tx: Tx, preview: Participation) -> None:
+    """Delete a preview without a trace; the names of its rig stay, for somebody may just be joining with it."""
+    erase_content(tx, preview.id)
+    tx.delete(preview)
+    tx.flush()
+
+
 def add(tx: Tx, *rows: Any) -> None:
     """Insert rows in this order, group by group, so that every reference finds its row."""
     for row in rows:
         tx.add(row)
         tx.flush()
+
+
+def add_once(tx: Tx, row: Any) -> bool:
+    """Insert a row unless another transaction was quicker; return whether this one stands."""
+    try:
+        with tx.begin_nested():
+            tx.add(row)
+    except IntegrityError:
+        return False
+    return True
 
 
 def add_all(tx: Tx, rows: Sequence[Any]) -> None:
@@ -155,15 +285,22 @@ def add_all(tx: Tx, rows: Sequence[Any]) -> None:
 
 def erase_content(tx: Tx, participation_id: str) -> None:
     """Delete everything that a participation holds; its own row stays, as a tombstone."""
-    its_trials = select(Trial.id).where(Trial.participation_id == participation_id)
+    erase_all(tx, select(Participation.id).where(Participation.id == participation_id))
+
+
+def erase_all(tx: Tx, which: Select[str]) -> None:
+    """Delete everything that some participations hold, given as a query for their ids; their own rows stay."""
+    its_trials = select(Trial.id).where(Trial.participation_id.in_(which))
     its_generations = select(Generation.id).where(Generation.trial_id.in_(its_trials))
     for statement in (
-        delete(Event).where(Event.participation_id == participation_id),
-        delete(Answer).where(Answer.participation_id == participation_id),
+        delete(Event).where(Event.participation_id.in_(which)),
+        delete(Answer).where(Answer.participation_id.in_(which)),
         delete(Rating).where(Rating.trial_id.in_(its_trials)),
+        delete(Response).where(Response.trial_id.in_(its_trials)),
+        delete(Stimulus).where(Stimulus.trial_id.in_(its_trials)),
         delete(ChoiceRecord).where(ChoiceRecord.generation_id.in_(its_generations)),
         delete(Face).where(Face.generation_id.in_(its_generations)),
         delete(Generation).where(Generation.trial_id.in_(its_trials)),
-        delete(Trial).where(Trial.participation_id == participation_id),
+        delete(Trial).where(Trial.participation_id.in_(which)),
     ):
         tx.execute(statement.execution_options(synchronize_session=False))

@@ -1,18 +1,23 @@
-"""Tables of what happens: participations, trials, generations, faces, choices, events, ratings, answers."""
+"""Tables of what happens: participations, trials, generations, faces, choices, events, ratings, responses, answers."""
 
 from __future__ import annotations
 
 from datetime import datetime
 from typing import Any
 
-from sqlalchemy import ForeignKey, UniqueConstraint
+from sqlalchemy import BigInteger, ForeignKey, UniqueConstraint
 from sqlalchemy.orm import Mapped, mapped_column
 
 from .base import Base
 
 
 class Participation(Base):
-    """One person's run through a study. `step` and `position` say where it stands."""
+    """One person's run through a study. `step` and `position` say where it stands.
+
+    `head` is empty where every block is done with each head. `order_row` is the row of the Latin square. Until
+    `lease_until` the place counts as taken. A preview is an experimenter's own and is deleted when it ends. `revision`
+    says when it last changed (revisions.py).
+    """
 
     __tablename__ = "participations"
     __table_args__ = (UniqueConstraint("study_id", "number"),)
@@ -28,10 +33,15 @@ class Participation(Base):
     config_hash: Mapped[str]
     simulated: Mapped[bool]
     pilot: Mapped[bool]
+    preview: Mapped[bool]
     condition: Mapped[str]
+    head: Mapped[str]
+    order_row: Mapped[int | None]
+    language: Mapped[str]
     seed: Mapped[str]
     trial_order: Mapped[list[Any]]
     recruiter: Mapped[dict[str, Any]]
+    device: Mapped[dict[str, Any]]
     step: Mapped[str]
     position: Mapped[int]
     outcome: Mapped[str | None]
@@ -40,12 +50,17 @@ class Participation(Base):
     arrived_at: Mapped[datetime]
     consented_at: Mapped[datetime | None]
     last_answer_at: Mapped[datetime | None]
+    lease_until: Mapped[datetime | None]
     ended_at: Mapped[datetime | None]
     erased_at: Mapped[datetime | None]
+    revision: Mapped[int] = mapped_column(BigInteger, default=0)
 
 
 class Trial(Base):
-    """One task of a participation; `attempt` and `generation` name the population that is on the screen."""
+    """One task of a participation. `attempt` and `generation` name the population that is on the screen.
+
+    In a trial without generations, `generation` counts its items. `emotion` is empty where a trial has several.
+    """
 
     __tablename__ = "trials"
     __table_args__ = (UniqueConstraint("participation_id", "position"),)
@@ -53,6 +68,7 @@ class Trial(Base):
     id: Mapped[str] = mapped_column(primary_key=True)
     participation_id: Mapped[str] = mapped_column(ForeignKey("participations.id"))
     position: Mapped[int]
+    block: Mapped[str]
     kind: Mapped[str]
     practice: Mapped[bool]
     emotion: Mapped[str]
@@ -121,6 +137,8 @@ class ChoiceRecord(Base):
     onset_ms: Mapped[float | None]
     chosen_ms: Mapped[float | None]
     hidden_ms: Mapped[float | None]
+    drawn_ms: Mapped[float | None]
+    none_is_close: Mapped[bool | None]
     viewport_width: Mapped[float | None]
     viewport_height: Mapped[float | None]
     pixel_ratio: Mapped[float | None]
@@ -153,6 +171,46 @@ class Rating(Base):
     question: Mapped[str] = mapped_column(primary_key=True)
     value: Mapped[int]
     arrived_at: Mapped[datetime]
+
+
+class Stimulus(Base):
+    """A face that was shown to be judged, as weights: whatever becomes of the faces that it was made from.
+
+    `source` is own, others, mean or named; `made_from` lists the finished faces behind it. Genes and weights as in
+    `Face`.
+    """
+
+    __tablename__ = "stimuli"
+    __table_args__ = (UniqueConstraint("trial_id", "item"),)
+
+    id: Mapped[str] = mapped_column(primary_key=True)
+    trial_id: Mapped[str] = mapped_column(ForeignKey("trials.id"))
+    item: Mapped[int]
+    source: Mapped[str]
+    name: Mapped[str] = mapped_column(index=True)
+    emotion: Mapped[str]
+    identity: Mapped[str]
+    made_from: Mapped[list[Any]]
+    genes: Mapped[bytes]
+    weights: Mapped[bytes]
+    portrait_key: Mapped[str] = mapped_column(index=True)
+
+
+class Response(Base):
+    """One question of a trial without generations, answered; `expected` where there is a right answer."""
+
+    __tablename__ = "responses"
+
+    trial_id: Mapped[str] = mapped_column(ForeignKey("trials.id"), primary_key=True)
+    item: Mapped[int] = mapped_column(primary_key=True)
+    question: Mapped[str] = mapped_column(primary_key=True)
+    stimulus_id: Mapped[str | None] = mapped_column(ForeignKey("stimuli.id"))
+    value: Mapped[list[Any]]
+    expected: Mapped[list[Any] | None]
+    arrived_at: Mapped[datetime]
+    onset_ms: Mapped[float | None]
+    answered_ms: Mapped[float | None]
+    hidden_ms: Mapped[float | None]
 
 
 class Answer(Base):

@@ -1,6 +1,9 @@
 // The editor of heads: fields beside the sliders, and a portrait that follows them. Without this script the form works
 // by its buttons.
 
+import { send as post, show } from "./drawing.js";
+import { begin, check, follow, reset, tell } from "./sliders.js";
+
 const PAUSE = 250;
 const form = document.querySelector("#editor");
 const portrait = document.querySelector("#portrait");
@@ -9,35 +12,10 @@ const own = document.querySelector("#own_look");
 
 let timer = 0;
 let asking = null;
-let shown = null;
 let painted = null;
 
 function ranges() {
   return form.querySelectorAll(".control > [name]");
-}
-
-/** What a slider or colour stands at, short enough to read. */
-function rounded(value) {
-  return Math.round(value * 100) / 100;
-}
-
-/** Whether what is typed beside a slider is a number that the slider can stand at. */
-function fits(typed) {
-  return typed.value !== "" && typed.validity.valid;
-}
-
-function field(input) {
-  return input.parentElement.querySelector(".typed");
-}
-
-/** Show a control's number, and the way back where it was changed. */
-function tell(input) {
-  const typed = field(input);
-  if (typed && typed !== document.activeElement) {
-    typed.value = rounded(input.value);
-    typed.removeAttribute("aria-invalid");
-  }
-  input.parentElement.querySelector(".reset").hidden = input.value === input.dataset.start;
 }
 
 function tellShares() {
@@ -67,7 +45,7 @@ async function draw() {
   say("Drawing");
   try {
     const reply = await send("/admin/heads/preview", mine.signal);
-    await show(await reply.blob());
+    await show(portrait, await reply.blob());
     name(reply.headers.get("X-Head-Hash"));
     if (!own.checked) wear(JSON.parse(reply.headers.get("X-Head-Look")), true);
     say(`Drawn in ${((performance.now() - begun) / 1000).toFixed(1)} s`);
@@ -79,32 +57,8 @@ async function draw() {
   }
 }
 
-/** Send the form; a refusal becomes an error in the server's own words. */
-async function send(address, signal) {
-  const body = new URLSearchParams(new FormData(form));
-  let reply;
-  try {
-    reply = await fetch(address, { method: "POST", body, signal });
-  } catch (error) {
-    if (signal?.aborted) throw error;
-    throw new Error("The server cannot be reached. Change a slider to try again.");
-  }
-  const kind = reply.headers.get("Content-Type") ?? "";
-  if (reply.ok && !kind.startsWith("text/html")) return reply;
-  if (!kind.startsWith("application/json")) throw new Error("You are signed out, or this page is too old. Reload it.");
-  const told = await reply.json();
-  throw Object.assign(new Error(told.error.message), { newer: reply.status === 409 });
-}
-
-/** Keep the old picture until the new one is ready. */
-async function show(blob) {
-  const address = URL.createObjectURL(blob);
-  const next = new Image();
-  next.src = address;
-  await next.decode();
-  portrait.src = address;
-  if (shown) URL.revokeObjectURL(shown);
-  shown = address;
+function send(address, signal) {
+  return post(address, new URLSearchParams(new FormData(form)), signal);
 }
 
 function name(digest) {
@@ -143,17 +97,7 @@ async function copy() {
 
 form.addEventListener("input", (event) => {
   const input = event.target;
-  if (input.classList.contains("typed")) {
-    if (!fits(input)) return;
-    input.removeAttribute("aria-invalid");
-    const slider = input.parentElement.querySelector("[name]");
-    slider.value = input.value;
-    tell(slider);
-  } else if (input.type === "range") {
-    // A drag stops anywhere; two decimals are enough and can be read.
-    input.value = rounded(input.value);
-  }
-  if (input.closest(".control")) tell(input.parentElement.querySelector("[name]"));
+  if (!follow(input)) return;
   // Whoever paints wants to see it.
   if (input.name?.startsWith("look.")) own.checked = true;
   if (input === own) dress();
@@ -163,22 +107,15 @@ form.addEventListener("input", (event) => {
 
 form.addEventListener("change", (event) => {
   const input = event.target;
-  if (input.classList.contains("typed") && !fits(input)) {
-    input.setAttribute("aria-invalid", "true");
-    say(`${input.getAttribute("aria-label")}: expected ${input.min} to ${input.max}.`, true);
-  }
+  const wrong = check(input);
+  if (wrong) say(wrong, true);
   // The name is not in the picture, but it is in the hash; nobody waits for that at every letter.
   if (input.name === "name") changed();
 });
 
 form.addEventListener("click", (event) => {
-  const reset = event.target.closest(".reset");
-  if (!reset) return;
-  const input = reset.parentElement.querySelector("[name]");
-  input.value = input.dataset.start;
-  tell(input);
+  if (!reset(event)) return;
   tellShares();
-  input.focus();
   changed();
 });
 
@@ -192,15 +129,6 @@ form.addEventListener("submit", (event) => {
 });
 document.querySelector("#copy").addEventListener("click", copy);
 
-for (const input of ranges()) {
-  // Browsers rewrite a value to one that the slider can stand at.
-  input.dataset.start = input.value === input.defaultValue ? input.dataset.start : input.value;
-  const typed = field(input);
-  if (typed) {
-    typed.hidden = false;
-    typed.disabled = false;
-  }
-  tell(input);
-}
+begin(form);
 document.querySelector("#copy").hidden = !navigator.clipboard;
 tellShares();

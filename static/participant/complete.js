@@ -1,6 +1,7 @@
 // The last page: the code appears only when the server holds every answer; copy, print.
 
-import { address, byId, say, word } from "./page.js";
+import { address, byId, say, state, word } from "./page.js";
+import { forgetDraft } from "./draft.js";
 import { Events } from "./events.js";
 import { Outbox } from "./outbox.js";
 import { remove, waiting } from "./store.js";
@@ -34,7 +35,10 @@ async function sendLeft() {
   byId("arrived").hidden = false;
 }
 
-/** Whoever stopped has nothing left to send. */
+remove("marks", [address]);
+forgetDraft();
+
+/** Whoever was erased has nothing left to send. */
 async function forget() {
   for (const store of ["answers", "events"]) {
     const items = await waiting(store, address);
@@ -42,10 +46,16 @@ async function forget() {
   }
 }
 
+function sendEvents() {
+  const events = new Events(address);
+  return events.collectLeft().then(() => events.flush());
+}
+
 if (byId("waiting")) {
   sendLeft();
-  const events = new Events(address);
-  events.collectLeft().then(() => events.flush());
-} else if (address) {
+  sendEvents();
+} else if (address && state?.completion?.outcome === "erased") {
   forget();
+} else if (address) {
+  sendEvents();
 }

@@ -1,5 +1,6 @@
 // One face on the whole screen: same grey, same framing, with its own keys.
 
+import { keyOf } from "./keyboard.js";
 import { byId, say } from "./page.js";
 
 export class Enlarged {
@@ -81,11 +82,9 @@ export class Enlarged {
       ArrowLeft: () => this.#step(-forth),
       ArrowRight: () => this.#step(forth),
       b: () => this.act.mark(this.tile),
-      B: () => this.act.mark(this.tile),
       z: () => this.dialog.close(),
-      Z: () => this.dialog.close(),
       " ": onOther ? null : () => this.act.toggle(this.tile),
-    }[event.key];
+    }[keyOf(event)];
     if (!work) return;
     event.preventDefault();
     if (!event.repeat) work();

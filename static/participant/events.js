@@ -5,6 +5,8 @@ import { uuid } from "./page.js";
 
 const EVERY = 5000;
 const AT_MOST = 200;
+// A load of the page has its own clock: its events are sent apart from those of another load, in their order.
+const LOAD = uuid();
 
 export class Events {
   constructor(address) {
@@ -12,6 +14,7 @@ export class Events {
     this.context = null;
     this.open = new Map();
     this.timer = 0;
+    this.at = 0;
     this.hiddenSince = document.hidden ? performance.now() : null;
     this.hidden = 0;
     this.#watch();
@@ -34,30 +37,53 @@ export class Events {
     const event = { id: uuid(), ...this.context, at_ms: Math.round(extra.at_ms ?? performance.now()), type };
     if (face) event.face = face;
     if (extra.duration_ms !== undefined) event.duration_ms = Math.round(extra.duration_ms);
-    const item = { id: event.id, address: this.address, at: Date.now() + this.open.size / 1000, event };
+    this.at = Math.max(this.at + 1, Date.now());
+    const item = { id: event.id, address: this.address, at: this.at, load: LOAD, event };
     this.open.set(item.id, item);
     put("events", item);
     this.timer ||= setTimeout(() => this.flush(), EVERY);
   }
 
+  /** Send first what an earlier page left behind. */
   async collectLeft() {
-    for (const item of await waiting("events", this.address)) this.open.set(item.id, item);
-    if (this.open.size) this.timer ||= setTimeout(() => this.flush(), EVERY);
+    const left = await waiting("events", this.address);
+    this.open = new Map([...left.map((item) => [item.id, item]), ...this.open]);
+    if (this.open.size) await this.flush();
   }
 
   async flush({ leaving = false } = {}) {
     clearTimeout(this.timer);
     this.timer = 0;
-    const items = [...this.open.values()].slice(0, AT_MOST);
-    if (!items.length) return;
-    const sent = await this.#post(items, leaving);
-    if (sent) {
-      for (const { id } of items) this.open.delete(id);
-      await remove("events", items.map(({ id }) => id));
+    for (const items of this.#bundles()) {
+      if (!(await this.#send(items, leaving)) && !leaving) break;
     }
     if (this.open.size) this.timer ||= setTimeout(() => this.flush(), EVERY);
   }
 
+  /** What waits, a load of the page at a time. */
+  #bundles() {
+    const loads = new Map();
+    for (const item of this.open.values()) loads.set(item.load, [...(loads.get(item.load) ?? []), item]);
+    return [...loads.values()].flatMap((items) =>
+      Array.from({ length: Math.ceil(items.length / AT_MOST) }, (_, part) => items.slice(part * AT_MOST, (part + 1) * AT_MOST)),
+    );
+  }
+
+  /** One bundle; of one that is refused, each half: a single wrong event must not take the others with it. */
+  async #send(items, keepalive) {
+    const status = await this.#post(items, keepalive);
+    if (status === 422 && items.length > 1) {
+      const middle = Math.ceil(items.length / 2);
+      const first = await this.#send(items.slice(0, middle), keepalive);
+      return (await this.#send(items.slice(middle), keepalive)) && first;
+    }
+    if (!status) return false;
+    for (const { id } of items) this.open.delete(id);
+    await remove("events", items.map(({ id }) => id));
+    return true;
+  }
+
+  /** The status of the server's last word; 0 when there was none. */
   async #post(items, keepalive) {
     try {
       const response = await fetch(`${this.address}/events`, {
@@ -66,10 +92,11 @@ export class Events {
         body: JSON.stringify({ events: items.map(({ event }) => event) }),
         keepalive,
       });
-      // A batch that the server will never take is dropped; anything else waits for the next try.
-      return response.ok || (response.status >= 400 && response.status < 500 && response.status !== 429);
+      if (response.ok) return response.status;
+      const later = [408, 429].includes(response.status) || response.status >= 500;
+      return !later && (await response.json()).error ? response.status : 0;
     } catch {
-      return false;
+      return 0;
     }
   }
 

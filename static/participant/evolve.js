@@ -1,55 +1,63 @@
 // The evolve page: ten faces, a choice, the next ten. This module joins the others; each of them knows one thing.
 
-import { address, byId, frame, say, state as firstState, word } from "./page.js";
+import { address, byId, painted, say, state as firstState, wait } from "./page.js";
+import { choice, measured, times } from "./choice.js";
 import { dialogs } from "./dialog.js";
 import { Enlarged } from "./enlarge.js";
 import { Events } from "./events.js";
 import { Grid } from "./grid.js";
+import { inputKind } from "./input.js";
 import { keyboard } from "./keyboard.js";
+import { Marks } from "./marks.js";
+import { currentState, onward } from "./onward.js";
 import { Outbox, Refused } from "./outbox.js";
 import { Panel } from "./panel.js";
-import { inputKind, pointer } from "./pointer.js";
-import { draw } from "./portraits.js";
+import { pointer } from "./pointer.js";
+import { draw, drawnFor } from "./portraits.js";
 import { Progress } from "./progress.js";
+import { offerAgain } from "./redraw.js";
 import { Selection } from "./selection.js";
 import { Status } from "./status.js";
+import { stopping } from "./stopping.js";
 import { label, Views } from "./views.js";
-
-const OFFLINE_AFTER = 2000;
+import { Waiting } from "./waiting.js";
 
 class Evolve {
   constructor() {
     this.input = inputKind();
     this.outbox = new Outbox(address);
     this.events = new Events(address);
+    this.marks = new Marks(address);
     this.grid = new Grid(byId("grid"));
     this.status = new Status();
-    this.panel = new Panel(this.outbox);
+    this.waiting = new Waiting(this.outbox, new Panel(this.outbox), this.status);
+    this.panel = this.waiting.panel;
     this.progress = new Progress();
-    this.selection = null;
-    this.trial = null;
+    this.none = byId("none");
+    this.selection = this.trial = this.answeredAt = null;
     this.busy = true;
-    const record = (type, face, extra) => this.events.record(type, face, extra);
-    this.record = record;
+    this.stopped = false;
+    this.record = (type, face, extra) => this.events.record(type, face, extra);
     const act = {
       toggle: (tile) => this.#choose(tile, "toggle"),
       mark: (tile) => this.#choose(tile, "mark"),
-      undo: () => this.#undo(),
+      undo: () => this.#ready() && this.selection.undo() && this.#changed(),
       enlarge: (tile) => this.#ready() && this.enlarged.show(tile),
       next: () => this.#next(),
     };
-    this.views = new Views(this.grid, record, () => label(this.trial, this.views.allSeen));
-    this.enlarged = new Enlarged(this.grid, () => this.selection, act, record);
+    this.views = new Views(this.grid, this.record, () => label(this.trial, this.views.allSeen));
+    this.enlarged = new Enlarged(this.grid, () => this.selection, act, this.record);
     pointer(this.grid, act);
     keyboard(this.grid, act);
     dialogs();
+    stopping(this.outbox, (erase) => this.#stop(erase));
     this.#listen(act);
   }
 
   async start() {
     this.#hold(true);
     this.events.collectLeft();
-    this.#expectReply(firstState.trial);
+    this.waiting.begin(firstState.trial);
     // What was left behind moved the server on: the state in the page is from before.
     if (await this.outbox.deliverLeft()) await this.#recover("online");
     else await this.#take({ state: firstState });
@@ -64,15 +72,25 @@ class Evolve {
     const done = allowed && this.selection[how](tile.id);
     if (allowed) this.grid.move(this.grid.tiles.indexOf(tile));
     if (!this.enlarged.open && allowed && !tile.root.contains(document.activeElement)) tile.select.focus({ preventScroll: true });
-    this.#render();
+    this.#changed();
     if (allowed && !done) this.status.say(say("limit", { count: this.selection.maximum }), "problem");
   }
 
-  #undo() {
-    if (this.#ready() && this.selection.undo()) this.#render();
+  #noneIsClose() {
+    if (!this.#ready()) {
+      this.none.checked = !this.none.checked;
+      return;
+    }
+    this.#changed();
+    if (this.none.checked) this.status.say(say("none_noted"), "mark");
   }
 
-  #render({ quiet = false } = {}) {
+  #changed() {
+    this.#render();
+    if (this.selection && !this.busy) this.marks.keep(this.trial, { ...this.selection.marks, none: this.none?.checked ?? false });
+  }
+
+  #render() {
     if (!this.selection) return;
     const undo = byId("undo");
     const focused = document.activeElement === undo;
@@ -80,7 +98,7 @@ class Evolve {
     this.enlarged.render();
     undo.hidden = !this.selection.canUndo;
     if (focused && undo.hidden) this.grid.current.select.focus();
-    if (!quiet) this.status.count(this.selection);
+    this.status.count(this.selection);
   }
 
   #next() {
@@ -91,41 +109,22 @@ class Evolve {
   }
 
   #sayMissing() {
-    const missing = this.selection.missing();
     this.status.missing(this.selection);
-    const tile = missing === "best" ? this.grid.of(this.selection.chosen[0]) : this.grid.current;
-    this.grid.move(this.grid.tiles.indexOf(tile));
-    (missing === "best" ? tile.best : tile.select).focus();
+    if (this.selection.missing() === "best") this.grid.focusBest(this.selection.chosen[0]);
+    else this.grid.current.select.focus();
   }
 
   #choice() {
-    const tile = this.grid.tiles[0].root.getBoundingClientRect();
-    return {
-      kind: "choice",
-      ...this.#step(),
-      selected: this.selection.chosen,
-      elite: this.selection.best,
-      timing: { ...this.timing, chosen_ms: Math.round(performance.now()), hidden_ms: this.events.hiddenFor() },
-      client: {
-        viewport: [innerWidth, innerHeight],
-        pixel_ratio: devicePixelRatio,
-        tile: [Math.round(tile.width), Math.round(tile.height)],
-        input: this.input.now,
-      },
-    };
-  }
-
-  #step() {
-    const { id, attempt, generation } = this.trial;
-    return { trial: id, attempt, generation };
+    const { shown, none, grid, events, input } = this;
+    return choice(this.trial, this.selection, { shown, none, grid, hidden: events.hiddenFor(), input: input.now });
   }
 
   async #answer(answer) {
     this.answeredAt = performance.now();
     this.#hold(true);
-    this.grid.empty();
-    this.#expectReply(this.trial);
+    this.#clear();
     const made = this.trial;
+    this.waiting.begin(made, made.pause_ms);
     try {
       const reply = await this.outbox.deliver(answer);
       this.status.say(made.generation ? say("saved", { generation: made.generation }) : say("saved_first"), "mark");
@@ -136,98 +135,99 @@ class Evolve {
     }
   }
 
+  #clear() {
+    this.grid.empty();
+    if (this.none) this.none.checked = false;
+  }
+
   /** Go to where the server is. */
   async #recover(note) {
-    const response = await fetch(`${address}/state`, { cache: "no-store" }).catch(() => null);
-    if (!response?.ok) return location.reload();
-    return this.#take({ state: await response.json() }, note);
-  }
-
-  /** While a reply is due: "drawing" after 400 ms, "connection lost" after 2 s with a failure. */
-  #expectReply(trial) {
-    const since = performance.now();
-    this.offline = null;
-    this.panel.expectDrawing();
-    this.outbox.onwaiting = (seconds) => {
-      this.panel.countDown(seconds);
-      this.offline ??= setTimeout(() => this.#showOffline(trial), OFFLINE_AFTER - (performance.now() - since));
-    };
-  }
-
-  #showOffline({ generation }) {
-    this.panel.showOffline(generation ? say("offline_close", { generation }) : say("offline_close_plain"));
-    this.status.say(generation ? say("kept", { generation }) : say("answer_kept"), "lock");
+    await this.#take({ state: await currentState() }, note);
   }
 
   async #take({ state, stale, recovered }, note = null) {
-    clearTimeout(this.offline);
-    this.outbox.onwaiting = null;
+    if (this.stopped) return undefined;
+    this.waiting.end();
     const { trial } = state;
     if (trial?.id !== firstState.trial.id) {
       this.events.flush({ leaving: true });
       await this.outbox.tidy;
-      return location.replace(address);
+      return onward();
     }
     if (recovered) this.status.say(say("online"), "mark");
-    await this.#present(trial, stale ? "elsewhere" : recovered ? "online" : note);
+    return this.#present(trial, stale ? "elsewhere" : recovered ? "online" : note);
   }
 
   async #present(trial, note, fresh = false) {
     this.trial = trial;
     this.progress.show(trial);
     const requested = performance.now();
+    const before = this.marks.found(trial);
     const images = await draw(trial.faces, { fresh, onReady: (ready) => this.panel.progress(ready) });
     const decoded = performance.now();
     const failed = images.filter((image) => !image).length;
     if (failed) return this.#failed(failed, trial, note);
-    await this.panel.close();
-    const onset = await frame();
-    this.#show(trial, images, { requested, decoded, onset });
+    const marks = await before;
+    await Promise.all([this.panel.close(), this.#pause(trial)]);
+    if (this.stopped) return undefined;
+    const onset = await painted(() => this.#show(trial, images, marks));
+    this.#begin(trial, { requested, decoded, onset, drawn: drawnFor(trial.faces) });
     if (note) this.status.say(say(note), note === "refused" ? "problem" : "mark");
     return undefined;
   }
 
+  /** The screen stays empty between two generations for as long as the study says. */
+  #pause({ pause_ms: pause }) {
+    return pause && this.answeredAt ? wait(this.answeredAt + pause - performance.now()) : null;
+  }
+
   #failed(count, trial, note) {
     this.panel.hide();
-    const run = () => {
-      removeEventListener("online", run);
-      this.status.say("");
+    offerAgain(this.status, count, () => {
       this.panel.expectDrawing();
       this.#present(trial, note, true);
-    };
-    this.status.say(say("failed", { count, word: word(count) }), "problem", { label: say("redraw"), run });
-    addEventListener("online", run, { once: true });
+    });
   }
 
   /** The one frame in which everything changes. */
-  #show(trial, images, { requested, decoded, onset }) {
+  #show(trial, images, marks) {
     this.panel.hide();
     this.selection = new Selection(trial, this.record);
-    this.grid.show(trial.faces, images, onset);
-    this.timing = { requested_ms: Math.round(requested), decoded_ms: Math.round(decoded), onset_ms: Math.round(onset) };
-    this.events.begin(trial);
-    this.record("onset", null, { at_ms: onset });
+    if (marks) this.selection.restore(marks);
+    if (this.none) this.none.checked = marks?.none ?? false;
+    this.grid.show(trial.faces, images);
     this.#hold(false);
     this.#render();
     scrollTo(0, 0);
-    this.views.begin();
-    label(trial, this.views.allSeen);
-    if (this.input.now === "keyboard") this.grid.move(0, { focus: true });
-    this.#measure("emogen-faces", requested, decoded);
-    if (this.answeredAt) this.#measure("emogen-turnaround", this.answeredAt, decoded);
   }
 
-  /** For the developer tools and the bench: nothing else reads it. */
-  #measure(name, start, end) {
-    performance.measure(name, { start, end });
+  /** Time zero: the faces have been painted. */
+  #begin(trial, moments) {
+    this.shown = times(moments);
+    this.grid.onset = moments.onset;
+    this.events.begin(trial);
+    this.record("onset", null, { at_ms: moments.onset });
+    this.views.begin();
+    label(trial, this.views.allSeen);
+    if (this.input.now === "keyboard") this.grid.move(this.grid.at, { focus: true });
+    measured(this.answeredAt ?? moments.requested, moments);
   }
 
   #hold(busy) {
     this.busy = busy;
     byId("undo").hidden = true;
+    if (this.none) this.none.disabled = busy;
     for (const button of document.querySelectorAll(".footer .button, .menu [data-dialog='again']")) {
       button.setAttribute("aria-disabled", String(busy));
     }
+  }
+
+  #stop(erase) {
+    this.stopped = true;
+    this.#hold(true);
+    this.#clear();
+    this.status.say("");
+    this.waiting.stop(erase);
   }
 
   #listen(act) {
@@ -236,13 +236,13 @@ class Evolve {
       act.next();
     });
     byId("undo").addEventListener("click", act.undo);
+    this.none?.addEventListener("change", () => this.#noneIsClose());
     document.querySelector("[data-again]")?.addEventListener("submit", (event) => {
       event.preventDefault();
       byId("again").close();
-      if (this.#ready()) this.#answer({ kind: "reset", ...this.#step() });
+      const { id, attempt, generation } = this.trial;
+      if (this.#ready()) this.#answer({ kind: "reset", trial: id, attempt, generation });
     });
-    // Back from another page: what this one remembers may be long over.
-    addEventListener("pageshow", (event) => event.persisted && location.reload());
   }
 }
 

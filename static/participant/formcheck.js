@@ -4,8 +4,8 @@ import { byId } from "./page.js";
 
 /** Mark every field that is missing; true when there is one. */
 export function wrongFields(form) {
-  const fields = [...form.querySelectorAll("[data-required]")];
-  const missing = fields.filter((field) => !field.querySelector("input:checked"));
+  const fields = [...form.querySelectorAll("[data-required], [data-optional]")];
+  const missing = fields.filter((field) => !answered(field));
   for (const field of fields) mark(field, missing.includes(field));
   const summary = byId("summary");
   if (!summary) return missing.length > 0;
@@ -16,20 +16,29 @@ export function wrongFields(form) {
   return missing.length > 0;
 }
 
+function answered(field) {
+  const entry = field.querySelector(".entry");
+  // A number field holds no value when what was typed is no number.
+  if (entry) return entry.validity.valid && (entry.value.trim() !== "" || "optional" in field.dataset);
+  return "optional" in field.dataset || field.querySelector("input:checked") !== null;
+}
+
+const sentence = (field) => field.dataset.required ?? field.dataset.optional;
+
 function mark(field, wrong) {
-  const input = field.querySelector("input");
+  const input = field.querySelector("input, textarea");
   const message = field.querySelector(".missing");
   field.classList.toggle("wrong", wrong);
-  message.querySelector("span").textContent = wrong ? field.dataset.required : "";
+  message.querySelector("span").textContent = wrong ? sentence(field) : "";
   if (wrong) input.setAttribute("aria-describedby", message.id);
   else input.removeAttribute("aria-describedby");
-  if (input.type === "checkbox") input.toggleAttribute("aria-invalid", wrong);
+  if (input.type === "checkbox" || input.matches(".entry")) input.toggleAttribute("aria-invalid", wrong);
 }
 
 function link(field) {
   const item = document.createElement("li");
-  const input = field.querySelector("input");
-  const anchor = Object.assign(document.createElement("a"), { href: `#${input.id}`, textContent: field.dataset.required });
+  const input = field.querySelector("input, textarea");
+  const anchor = Object.assign(document.createElement("a"), { href: `#${input.id}`, textContent: sentence(field) });
   anchor.addEventListener("click", (event) => {
     event.preventDefault();
     input.focus();

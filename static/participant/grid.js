@@ -37,8 +37,8 @@ export class Grid {
     }
   }
 
-  /** Put ten decoded pictures in, all within one frame. */
-  show(faces, images, onset) {
+  /** Put ten decoded pictures in, all within one frame; `onset` is told when it was painted. */
+  show(faces, images) {
     faces.forEach((face, index) => {
       const tile = this.tiles[index];
       tile.id = tile.root.dataset.face = tile.select.value = tile.best.value = face.id;
@@ -48,7 +48,6 @@ export class Grid {
     });
     this.root.classList.remove("empty");
     this.root.classList.add("shown");
-    this.onset = onset;
     this.move(0);
   }
 
@@ -69,6 +68,13 @@ export class Grid {
       best.tabIndex = select.checked ? stop : -1;
     });
     if (focus) this.current.select.focus();
+  }
+
+  /** To the mark of a chosen face. */
+  focusBest(face) {
+    const tile = this.of(face);
+    this.move(this.tiles.indexOf(tile));
+    tile.best.focus();
   }
 
   columns() {

@@ -17,21 +17,27 @@ export function keyboard(grid, act) {
     if (tile && tile !== grid.current) grid.move(grid.tiles.indexOf(tile));
   });
   document.addEventListener("keydown", (event) => {
-    const undo = (event.ctrlKey || event.metaKey) && !event.shiftKey && event.key.toLowerCase() === "z";
+    const undo = (event.ctrlKey || event.metaKey) && !event.shiftKey && keyOf(event) === "z";
     if (!undo || document.querySelector("dialog.dialog[open]")) return;
     event.preventDefault();
     act.undo();
   });
 }
 
+/** What a key means: its letter, or where another script is typed, the Latin letter printed beside it. */
+export function keyOf({ key, code }) {
+  const other = /^Key[A-Z]$/.test(code) && !/^[a-z]$/i.test(key);
+  const meant = other ? code.slice(3) : key;
+  return meant.length === 1 ? meant.toLowerCase() : meant;
+}
+
 function letter(event, tile, act) {
-  const key = event.key.toLowerCase();
   const onButton = event.target === tile.enlarge;
   const work = {
     b: () => act.mark(tile),
     z: () => act.enlarge(tile),
-    enter: onButton ? null : () => act.next(),
-  }[key];
+    Enter: onButton ? null : () => act.next(),
+  }[keyOf(event)];
   if (!work) return;
   event.preventDefault();
   if (!event.repeat) work();

@@ -10,10 +10,23 @@ export const byId = (id) => document.getElementById(id);
 
 export const digits = (number) => String(number).replace(/\d/g, (digit) => language.digits[digit]);
 
+/** A key as a plain digit, where it is a digit in the script of this language. */
+export function plainDigit(key) {
+  const digit = key.length === 1 ? language.digits.indexOf(key) : -1;
+  return digit < 0 ? key : String(digit);
+}
+
 export function say(key, values = {}) {
   const entry = client[key];
   const text = typeof entry === "string" ? entry : entry[plural.select(values.count)] ?? entry.other;
   return text.replace(/\{(\w+)\}/g, (_, name) => (typeof values[name] === "number" ? digits(values[name]) : values[name]));
+}
+
+/** New words are a new node: they appear where they belong, nothing moves there. */
+export function reworded(node, text) {
+  const made = Object.assign(node.cloneNode(false), { textContent: text });
+  node.replaceWith(made);
+  return made;
 }
 
 /** A small number as a word that can begin a sentence. */
@@ -22,8 +35,18 @@ export function word(number) {
   return text.charAt(0).toLocaleUpperCase(language.code) + text.slice(1);
 }
 
+// Back from another page: what this one remembers may be long over.
+addEventListener("pageshow", (event) => event.persisted && location.reload());
+
 export const wait = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
 export const frame = () => new Promise((done) => requestAnimationFrame(done));
+
+/** Change the page within one frame; resolves with the time of the next one, the first after it was painted. */
+export async function painted(change) {
+  await frame();
+  change();
+  return frame();
+}
 
 /** Where crypto.randomUUID is missing (plain http on a private network) random bytes are still there. */
 export function uuid() {

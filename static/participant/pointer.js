@@ -65,11 +65,3 @@ export function pointer(grid, act) {
 
   for (const type of ["contextmenu", "dragstart"]) grid.root.addEventListener(type, (event) => event.preventDefault());
 }
-
-/** How the person works, for the record: the kind of the last input. */
-export function inputKind() {
-  const kind = { now: matchMedia("(any-hover: hover)").matches ? "mouse" : "touch" };
-  addEventListener("pointerdown", (event) => { kind.now = event.pointerType || "mouse"; }, true);
-  addEventListener("keydown", (event) => { if (!["Control", "Meta", "Alt", "Shift"].includes(event.key)) kind.now = "keyboard"; }, true);
-  return kind;
-}

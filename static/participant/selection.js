@@ -13,6 +13,18 @@ export class Selection {
     this.takenBack = false;
   }
 
+  /** What a reload of the page must not lose. */
+  get marks() {
+    const { chosen, best, automatic, takenBack } = this;
+    return { chosen, best, automatic, takenBack, past: this.#past };
+  }
+
+  /** Go on from marks that were made before the page was loaded again; nothing is recorded, they were. */
+  restore({ past, ...marks }) {
+    Object.assign(this, marks);
+    this.#past = past;
+  }
+
   get canUndo() {
     return this.#past.length > 0;
   }

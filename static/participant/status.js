@@ -1,6 +1,6 @@
 // The footer's one line: the count, or what is in the way. Nothing on the page moves.
 
-import { byId, say } from "./page.js";
+import { byId, reworded, say } from "./page.js";
 
 const ICONS = { problem: "alert", mark: "tick", lock: "lock" };
 
@@ -15,7 +15,7 @@ export class Status {
   say(sentence, kind = "", action = null) {
     this.root.className = `status ${kind === "lock" ? "mark lock" : kind}`.trim();
     if (kind) this.use.setAttribute("href", `#i-${ICONS[kind]}`);
-    this.text.textContent = sentence;
+    this.text = reworded(this.text, sentence);
     this.root.querySelector("button")?.remove();
     if (action) this.root.append(button(action));
   }

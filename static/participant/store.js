@@ -1,16 +1,22 @@
-// The device's own memory: answers and events wait here until the server has them. Without IndexedDB (some private
-// windows) the page's memory serves; then only closing the page could lose what was not sent.
+// The device's own memory: answers, events and marks wait here until the server has them. Without IndexedDB (some
+// private windows, a full disk) the page's memory serves; then only closing the page could lose what was not sent.
 
-const memory = { answers: new Map(), events: new Map() };
+const memory = { answers: new Map(), events: new Map(), marks: new Map() };
+const PATIENCE = 1000;
 let opening = null;
 
 function open() {
   opening ??= new Promise((done) => {
-    const request = indexedDB.open("emogen", 1);
+    setTimeout(() => done(null), PATIENCE);
+    const request = indexedDB.open("emogen", 2);
     request.onupgradeneeded = () => {
-      for (const name of Object.keys(memory)) request.result.createObjectStore(name, { keyPath: "id" });
+      const known = request.result.objectStoreNames;
+      for (const name of Object.keys(memory)) if (!known.contains(name)) request.result.createObjectStore(name, { keyPath: "id" });
     };
-    request.onsuccess = () => done(request.result);
+    request.onsuccess = () => {
+      request.result.onversionchange = () => request.result.close();
+      done(request.result);
+    };
     request.onerror = request.onblocked = () => done(null);
   }).catch(() => null);
   return opening;
@@ -31,8 +37,10 @@ async function run(store, mode, work, fallback) {
   });
 }
 
-export const put = (store, item) =>
-  run(store, "readwrite", (box) => box.put(item), (map) => map.set(item.id, item));
+/** Keep an item; resolves with whether the device has it, or only this page. */
+export async function put(store, item) {
+  return (await run(store, "readwrite", (box) => box.put(item), (map) => map.set(item.id, item) && null)) !== null;
+}
 
 export async function remove(store, ids) {
   for (const id of ids) memory[store].delete(id);

@@ -1,8 +1,15 @@
-// Which tiles have been in view. On a phone the button leads to the last row before it becomes "Next faces".
+// Which tiles have been in view. Where the page scrolls, the button leads to the last row before it becomes "Next faces".
 
 import { byId, say } from "./page.js";
 
-const PHONE = matchMedia("(max-width: 640px)");
+const above = () => document.querySelector(".question");
+const below = () => document.querySelector(".footer");
+// The layouts of static/phone.css, and of a low window in evolve.css.
+const SCROLLS = matchMedia("(max-width: 767px), (max-height: 529px)");
+const LOOSE = matchMedia("(max-height: 559px)");
+const SEEN = 0.75;
+const FILLS = 0.6;
+const STEPS = [0.25, 0.4, 0.5, 0.6, 0.7, SEEN, 1];
 
 export class Views {
   constructor(grid, record, changed) {
@@ -11,7 +18,7 @@ export class Views {
     this.changed = changed;
     this.seen = new Set();
     this.observer = null;
-    PHONE.addEventListener("change", () => this.#watch());
+    for (const query of [SCROLLS, LOOSE]) query.addEventListener("change", () => this.#watch());
   }
 
   /** Ten new faces: nothing has been seen yet. */
@@ -21,29 +28,36 @@ export class Views {
   }
 
   get allSeen() {
-    const { tiles } = this.grid;
-    return !PHONE.matches || tiles.slice(-2).every((tile) => this.seen.has(tile));
+    return !SCROLLS.matches || !this.#unseen();
   }
 
   scrollOn() {
-    const covered = document.querySelector(".question").offsetHeight + document.querySelector(".footer").offsetHeight;
-    const smooth = matchMedia("(prefers-reduced-motion: reduce)").matches ? "auto" : "smooth";
-    scrollBy({ top: Math.max(200, innerHeight - covered - 40), behavior: smooth });
+    const covered = sticky(above()) + sticky(below());
+    const behavior = matchMedia("(prefers-reduced-motion: reduce)").matches ? "auto" : "smooth";
+    const { scrollHeight } = document.documentElement;
+    // At the end, with faces passed over too quickly: back to them.
+    if (scrollY + innerHeight >= scrollHeight - 2) this.#unseen()?.root.scrollIntoView({ block: "center", behavior });
+    else scrollBy({ top: Math.max(200, innerHeight - covered - 40), behavior });
+  }
+
+  #unseen() {
+    return this.grid.tiles.slice(-2).find((tile) => !this.seen.has(tile));
   }
 
   #watch() {
     this.observer?.disconnect();
     // What lies under the sticky question and the dock is not in view.
-    const margins = PHONE.matches ? "-96px 0px -122px 0px" : "0px";
-    this.observer = new IntersectionObserver((entries) => this.#note(entries), { threshold: 0.75, rootMargin: margins });
+    const margins = `-${sticky(above())}px 0px -${sticky(below())}px 0px`;
+    this.observer = new IntersectionObserver((entries) => this.#note(entries), { threshold: STEPS, rootMargin: margins });
     for (const { root } of this.grid.tiles) this.observer.observe(root);
   }
 
   #note(entries) {
     if (!Number.isFinite(this.grid.onset)) return;
-    for (const { isIntersecting, target, time } of entries) {
+    for (const entry of entries) {
+      const { target, time } = entry;
       const tile = this.grid.tileOf(target);
-      if (!isIntersecting || this.seen.has(tile)) continue;
+      if (!inView(entry) || this.seen.has(tile)) continue;
       this.seen.add(tile);
       this.record("first_view", tile.id, { at_ms: Math.max(time, this.grid.onset) });
     }
@@ -51,10 +65,24 @@ export class Views {
   }
 }
 
+/** How much a bar covers at the edge of the window: nothing where it scrolls with the page. */
+const sticky = (bar) => (getComputedStyle(bar).position === "sticky" ? bar.offsetHeight : 0);
+
+/** Most of the tile is seen, or in a window lower than a tile, most of what fits in. */
+function inView({ intersectionRatio, intersectionRect, rootBounds }) {
+  return intersectionRatio >= SEEN || (rootBounds !== null && intersectionRect.height >= FILLS * rootBounds.height);
+}
+
 /** The main button says what it will do. */
 export function label(trial, allSeen) {
   const button = byId("next");
   const key = !allSeen ? "see_all" : !trial.final ? "next" : trial.practice ? "practice_next" : "finish";
-  button.querySelector(".words").textContent = say(key);
+  const said = button.querySelector(".said");
+  if (said.querySelector(".words").textContent !== say(key)) {
+    // Words and arrow are new together: they appear where they belong, nothing moves there.
+    const anew = said.cloneNode(true);
+    anew.querySelector(".words").textContent = say(key);
+    said.replaceWith(anew);
+  }
   button.classList.toggle("see-all", !allSeen);
 }

@@ -1,0 +1,162 @@
+"""`emogen analyse`: what the faces of an export say, as a page with its numbers and a text for a paper."""
+
+from __future__ import annotations
+
+import json
+import sys
+from contextlib import closing, contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import typer
+from threadpoolctl import threadpool_limits
+
+from emogen_client import EmogenClientError, Export
+from emogen_core.errors import RenderingError
+from emogen_core.face.bundled import load_bundled_rig
+from emogen_core.rendering.pool import RenderPool
+from emogen_core.simulation.evaluation.threshold import SEARCHES
+
+from ..analysis.context import Context
+from ..analysis.counted import PEOPLE, PILOT, SIMULATED
+from ..analysis.faces import Studio
+from ..analysis.files import PAGE, plain, write
+from ..analysis.methods import Facts, methods
+from ..analysis.reading import read
+from ..analysis.sections import sections
+from ..analysis.simulated import simulate
+from ..analysis.telling import counted
+from ..release import release
+from ..services.faces.correction import Correction
+from ..services.faces.drawing import PoolDrawer
+from ..services.faces.tailor import HouseTailor
+from ..services.faces.wardrobe import Wardrobe
+from .common import made_folder, plainly, stop, unwritable
+from .threshold import Seed
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from emogen_core.face.rig import Rig
+
+    from ..analysis.reading import Recording
+    from ..analysis.section import Section
+
+From = Annotated[Path, typer.Argument(metavar="EXPORT", help="A folder or zip of emogen export or of the Data page.")]
+Out = Annotated[Path, typer.Option("--out", help="Folder to write to.")]
+Pilot = Annotated[bool, typer.Option("--pilot", help="Count people of the pilot phase as well.")]
+Simulated = Annotated[bool, typer.Option("--simulated", help="Count simulated participants as well.")]
+Flagged = Annotated[bool, typer.Option("--flagged", help="Count people who failed an attention check as well.")]
+Json = Annotated[bool, typer.Option("--json", help="Print the numbers as JSON.")]
+
+
+def analyse(  # noqa: PLR0913, PLR0917 - typer reads the options from the signature
+    export: From, out: Out = Path("analysis"), pilot: Pilot = False, simulated: Simulated = False,
+    flagged: Flagged = False, seed: Seed = 1, json_: Json = False,
+) -> None:  # fmt: skip
+    """Analyse the finished faces of an export: report.html, a CSV file a table, and methods.txt."""
+    kinds = (PEOPLE, *((PILOT,) if pilot else ()), *((SIMULATED,) if simulated else ()))
+    rig = load_bundled_rig()
+    wardrobe = Wardrobe(rig, HouseTailor(rig))
+    # The products are small: threads of the algebra library only get in each other's way.
+    with plainly(), closing(wardrobe), threadpool_limits(1):
+        kept, recording = _read(export, rig, kinds, flagged=flagged)
+        folder = made_folder(out)
+        facts = _facts(kept, recording, rig, kinds, _command(export, seed, kinds, flagged=flagged))
+        with _studio(wardrobe, recording) as studio:
+            context = _context(recording, rig, wardrobe, facts.seed, studio)
+            made = _sections(context)
+        try:
+            write(made, methods(context, made, facts), facts, folder, faces=studio is not None)
+        except OSError as error:
+            raise unwritable(folder, error) from error
+    typer.echo(json.dumps(plain(made, facts), indent=2, allow_nan=False) if json_ else str(folder / PAGE))
+
+
+def _read(path: Path, rig: Rig, kinds: tuple[str, ...], *, flagged: bool) -> tuple[Export, Recording]:
+    try:
+        kept = Export(path)
+        return kept, read(kept, rig, kinds, flagged=flagged)
+    except EmogenClientError as error:
+        raise stop(str(error)) from error
+
+
+def _command(path: Path, seed: int, kinds: tuple[str, ...], *, flagged: bool) -> tuple[str, int]:
+    """Return what makes the same report again, wherever the export lies and the report goes, and its seed."""
+    options = [*(f"--{kind}" for kind in kinds if kind != PEOPLE), *(["--flagged"] if flagged else [])]
+    return " ".join(["emogen analyse", path.name, *options, f"--seed {seed}"]), seed
+
+
+def _facts(kept: Export, recording: Recording, rig: Rig, kinds: tuple[str, ...], command: tuple[str, int]) -> Facts:
+    return Facts(
+        command=command[0], version=release(), recorded_with=str(kept.manifest["release"]),
+        exported_at=str(kept.manifest["made_at"]), title=recording.title, study=recording.study, rig=rig.name,
+        rig_hash=rig.hash, configurations=recording.config_hashes, algorithms=recording.algorithms,
+        simulated=_share(recording.simulated, recording.counted),
+        counted=_counted(recording.simulated, recording.counted, kinds),
+        seed=command[1], searches=SEARCHES,
+    )  # fmt: skip
+
+
+def _counted(simulated: int, of: int, kinds: tuple[str, ...]) -> str:
+    """Return who counts, in words."""
+    what = "simulated participant" if simulated == of else "participant"
+    some = [f"{simulated} of them simulated"] if 0 < simulated < of else []
+    more = "; ".join([*some, *(["pilot phase included"] if PILOT in kinds else [])])
+    return f"{counted(of, what)} ({more})" if more else counted(of, what)
+
+
+def _share(simulated: int, of: int) -> Literal["all", "some", "none"]:
+    if not simulated:
+        return "none"
+    return "all" if simulated == of else "some"
+
+
+@contextmanager
+def _studio(wardrobe: Wardrobe, recording: Recording) -> Iterator[Studio | None]:
+    """Start what draws and fit the heads; without OpenGL there is a report all the same, without faces."""
+    for config in recording.studies:
+        wardrobe.know(config)
+    heads = sorted(set(recording.faces.identities.tolist()))
+    for head in heads:
+        wardrobe.wait(head)
+    with RenderPool() as pool:
+        studio = Studio(PoolDrawer(pool), wardrobe)
+        try:
+            studio.portraits([("", "", heads[0], recording.faces.weights[0])])
+        except RenderingError as error:
+            typer.echo(f"The report will have no faces: {error}", err=True)
+            yield None
+            return
+        yield studio
+
+
+def _context(recording: Recording, rig: Rig, wardrobe: Wardrobe, seed: int, studio: Studio | None) -> Context:
+    correction = Correction(wardrobe.rig)
+
+    def corrected(identity: str, genes: NDArray[np.float64]) -> NDArray[np.float32]:
+        return correction.faces(identity, [genes])[0].weights
+
+    with _progress("Simulating") as done:
+        simulated = simulate(rig, recording, seed, done)
+    return Context(recording, rig, simulated, corrected, seed, studio)
+
+
+def _sections(context: Context) -> list[Section]:
+    with _progress("Analysing") as done:
+        return sections(context, done)
+
+
+@contextmanager
+def _progress(label: str) -> Iterator[Callable[[int, int], None]]:
+    """Show how many of how many are done."""
+    with typer.progressbar(length=1, label=label, file=sys.stderr) as bar:
+
+        def done(count: int, of: int) -> None:
+            bar.length = of
+            bar.update(count - bar.pos)
+
+        yield done

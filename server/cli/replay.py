@@ -1,0 +1,85 @@
+"""`emogen replay`: whether an export tells the truth, and its faces as pictures again."""
+
+from __future__ import annotations
+
+import json
+import sys
+from contextlib import closing
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from emogen_client import EmogenClientError, Export
+from emogen_core.face.bundled import load_bundled_rig
+from emogen_core.rendering.pool import RenderPool
+
+from ..services.faces.drawing import PoolDrawer
+from ..services.faces.tailor import HouseTailor
+from ..services.faces.wardrobe import Wardrobe
+from ..services.participation.replay.exported import ExportReplay
+from ..services.participation.replay.portraits import Album, Which
+from .common import made_folder, plainly, stop, unwritable
+
+if TYPE_CHECKING:
+    from ..services.participation.replay.comparison import Difference, Replayed
+
+From = Annotated[Path, typer.Argument(metavar="EXPORT", help="A folder or zip of emogen export or of the Data page.")]
+Portraits = Annotated[Path | None, typer.Option(help="Folder for the portraits, drawn again as PNG.")]
+Faces = Annotated[Which, typer.Option("--faces", help="Of which: finished, best of every generation, or all.")]
+Json = Annotated[bool, typer.Option("--json", help="Print what was found as JSON.")]
+
+
+def replay(export: From, portraits: Portraits = None, faces: Faces = "finished", json_: Json = False) -> None:
+    """Make every face of an export again from configuration, seeds and choices; name the first difference."""
+    rig = load_bundled_rig()
+    wardrobe = Wardrobe(rig, HouseTailor(rig))
+    with plainly(), closing(wardrobe):
+        try:
+            kept = Export(export)
+            kept.verify()
+            again = ExportReplay(kept, rig, wardrobe)
+            found = _replayed(again)
+            if portraits is not None and found.difference is None:
+                _draw(again, made_folder(portraits), faces)
+        except EmogenClientError as error:
+            raise stop(str(error)) from error
+    typer.echo(json.dumps(asdict(found), indent=2) if json_ else _sentence(found))
+    if found.difference is not None:
+        raise typer.Exit(1)
+
+
+def _replayed(again: ExportReplay) -> Replayed:
+    with typer.progressbar(length=1, label="Replaying", file=sys.stderr) as bar:
+
+        def done(count: int, of: int) -> None:
+            bar.length = of
+            bar.update(count - bar.pos)
+
+        return again.everybody(done)
+
+
+def _draw(again: ExportReplay, folder: Path, which: Which) -> None:
+    with RenderPool() as pool:
+        album = Album(PoolDrawer(pool), again.wardrobe)
+        for name, picture in album.pictures(again.participations(), which):
+            path = folder / name
+            try:
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_bytes(picture)
+            except OSError as error:
+                raise unwritable(folder, error) from error
+
+
+def _sentence(found: Replayed) -> str:
+    if found.difference is None:
+        return f"Replayed bit for bit: {found.generations} generations."
+    return f"After {found.generations} generations: {_told(found.difference)}"
+
+
+def _told(difference: Difference) -> str:
+    told = asdict(difference)
+    names = ("participation", "trial", "attempt", "generation", "slot")
+    where = ", ".join(f"{name} {told[name]}" for name in names if told[name] not in {None, ""})
+    return f"{where}: {difference.what}: expected {difference.expected}, got {difference.got}."

@@ -1,0 +1,1 @@
+"""The experimenters' pages: parse, call one service, show a template."""

@@ -1,0 +1,172 @@
+"""Heads to look at before a study has them: the presets' portraits, and any document's, drawn while it is made.
+
+A preview is for the one who moves the sliders: a newer one of the same person takes the place of what is not fitted
+yet. A neutral face needs no fitted shapes and comes in a second; one that moves takes as long as a study's head does,
+once, and is then remembered.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections import OrderedDict
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from emogen_core.correctives.pipeline import face_weights
+from emogen_core.errors import IdentityError
+from emogen_core.face.identity import parsed_document, signed_document, worn_as
+from emogen_core.rendering.protocol import RenderSettings
+from emogen_core.rendering.worn import WornHead, worn_rig
+from emogen_core.rigs.default_look import appearance_of
+from emogen_core.rigs.identities import IDENTITIES, preset
+
+from ..errors import ConflictError, InvalidError, NotFoundError
+from .sketch import Sketch
+from .wardrobe import refusal
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future
+
+    from numpy.typing import NDArray
+
+    from emogen_core.face.appearance import Appearance
+    from emogen_core.face.identity import Identity
+    from emogen_core.face.rig import Rig
+    from emogen_core.face.space import IdentitySpace
+
+    from .portraits import Portraits
+    from .wardrobe import Wardrobe
+
+NEUTRAL = "neutral"
+SMALL, LARGE = RenderSettings(200, 240), RenderSettings(400, 480)
+_REMEMBERED = 4
+
+
+@dataclass(frozen=True)
+class Heads:
+    """The presets, and heads in the making."""
+
+    rig: Rig
+    wardrobe: Wardrobe
+    portraits: Portraits
+    _tried: OrderedDict[str, tuple[WornHead, Rig]] = field(default_factory=OrderedDict)
+    _latest: dict[str, int] = field(default_factory=dict)
+    _lock: threading.Lock = field(default_factory=threading.Lock)
+
+    @property
+    def space(self) -> IdentitySpace:
+        """The space of heads."""
+        return self.wardrobe.space
+
+    @property
+    def presets(self) -> tuple[str, ...]:
+        """The named presets that the rig wears."""
+        return tuple(name for name in IDENTITIES if name in self.rig.neutrals)
+
+    @property
+    def emotions(self) -> tuple[str, ...]:
+        """Neutral, and the emotions that the rig has prototypes of."""
+        return (NEUTRAL, *self.rig.emotion_sets)
+
+    def start(self, name: str) -> Identity:
+        """Return a preset to go on from.
+
+        Raises:
+            NotFoundError: there is no such preset.
+        """
+        if name not in self.presets:
+            raise NotFoundError("There is no such head.", field="from", got=name)
+        return preset(name)
+
+    def read(self, document: object) -> Identity:
+        """Return what a document describes; raises `InvalidError`, as a study would."""
+        return self.wardrobe.read(document)
+
+    def read_file(self, content: bytes) -> Identity:
+        """Return what the document in a file describes; raises as `read`, also when the file is none."""
+        try:
+            document = parsed_document(content)
+        except IdentityError as error:
+            raise refusal("file", error) from error
+        return self.read(document)
+
+    def signed(self, identity: Identity) -> dict[str, Any]:
+        """Return the canonical document of an identity with its hashes."""
+        return signed_document(identity, self.space)
+
+    def appearance(self, identity: Identity) -> Appearance:
+        """Return the look of an identity: its own, or that of its sex, age and ancestry."""
+        return appearance_of(identity, self.space)
+
+    def portrait(self, name: str, *, large: bool = False, emotion: str = NEUTRAL) -> Future[bytes]:
+        """Return the promise of a preset's portrait, neutral or with one of the rig's prototypes.
+
+        Raises:
+            NotFoundError: there is no such preset.
+            InvalidError: there is no such emotion.
+        """
+        if name not in self.presets:
+            raise NotFoundError("There is no such head.", field="name", got=name)
+        self._check_emotion(emotion)
+        weights = self._weights(self.rig, name, emotion)
+        return self.portraits.sketched(Sketch(name, weights, LARGE if large else SMALL))
+
+    def preview(self, identity: Identity, emotion: str, user: str) -> Future[bytes]:
+        """Return the promise of a portrait of an identity that no study need have.
+
+        Args:
+            identity: the head and its look.
+            emotion: neutral, or one of the rig's prototypes at full strength.
+            user: whose preview it is; a newer one of the same person goes first.
+
+        Raises:
+            InvalidError: there is no such emotion, or the head cannot be fitted.
+            ConflictError: the same person has asked for a newer one.
+            UnavailableError: other heads are being fitted for longer than anybody should wait.
+        """
+        self._check_emotion(emotion)
+        head, rig = self._worn(identity, self._ticket(user), user, moving=emotion != NEUTRAL)
+        return self.portraits.sketched(Sketch(head.name, self._weights(rig, head.name, emotion), LARGE), head)
+
+    @property
+    def _rest(self) -> NDArray[np.float32]:
+        """(K,) weights of a face at rest. Every head was made so that it collides with nothing then."""
+        return np.zeros(len(self.rig.shape_names), np.float32)
+
+    def _check_emotion(self, emotion: str) -> None:
+        if emotion not in self.emotions:
+            wanted = f"one of {', '.join(self.emotions)}"
+            raise InvalidError("There is no such emotion.", field="emotion", expected=wanted, got=emotion)
+
+    def _weights(self, rig: Rig, head: str, emotion: str) -> NDArray[np.float32]:
+        if emotion == NEUTRAL:
+            return self._rest
+        weights: NDArray[np.float32] = face_weights(rig, head, rig.emotion_genes(emotion)[np.newaxis]).weights[0]
+        return weights
+
+    def _ticket(self, user: str) -> int:
+        with self._lock:
+            self._latest[user] = self._latest.get(user, 0) + 1
+            return self._latest[user]
+
+    def _worn(self, identity: Identity, ticket: int, user: str, *, moving: bool) -> tuple[WornHead, Rig]:
+        digest: str = self.signed(identity)["hash"]
+        if ready := self.wardrobe.ready(worn_as(digest)):
+            return ready
+        for key in (digest, *([] if moving else [f"{digest} still"])):
+            if worn := self._tried.get(key):
+                return worn
+
+        def wanted() -> None:
+            if self._latest[user] != ticket:
+                raise ConflictError("A newer preview was asked for.")
+
+        head = self.wardrobe.try_on(identity, wanted, moving=moving)
+        worn = head, worn_rig(self.rig, head)
+        with self._lock:
+            self._tried[digest if moving else f"{digest} still"] = worn
+            while len(self._tried) > _REMEMBERED:
+                self._tried.popitem(last=False)
+        return worn

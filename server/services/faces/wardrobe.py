@@ -1,0 +1,253 @@
+"""The heads that studies bring along: identity documents in, fitted heads out.
+
+A study's configuration holds the documents, so every process that reads a study can make its heads. Fitting takes
+seconds and happens outside of any transaction, one head at a time: ahead when a study is made or the server starts,
+at once for whoever waits for a head that is not ready. `rig` and `head` never wait: a transaction may use them.
+"""
+
+from __future__ import annotations
+
+import re
+import threading
+from collections import OrderedDict
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+
+from emogen_core.errors import EmogenError, IdentityError
+from emogen_core.face.identity import read_identity, require_adult, signed_document
+from emogen_core.rendering.worn import WornHead, worn_rig
+
+from ..background import watched
+from ..errors import ConflictError, InvalidError, UnavailableError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+
+    from emogen_core.face.identity import Identity
+    from emogen_core.face.rig import Rig
+    from emogen_core.face.space import IdentitySpace
+
+    from ..config import StudyConfig
+
+Made = TypeVar("Made")
+LIMIT = 24
+"""Fitted heads that one process keeps, some 6 MB each; documents are small and all kept: any head can be made again."""
+AGAIN = 5
+"""Seconds after which whoever found a head not ready may come again."""
+
+
+class Tailor(Protocol):
+    """What fits heads: the methods of the rig's builder, or a quick fake in tests."""
+
+    @property
+    def space(self) -> IdentitySpace:
+        """The space of heads."""
+        ...
+
+    def fit(self, identity: Identity, *, moving: bool = True) -> WornHead:
+        """Return a fitted head."""
+        ...
+
+
+@dataclass
+class _Peg:
+    """One head of a study, and what became of it."""
+
+    document: Mapping[str, Any]
+    head: WornHead | None = None
+    rig: Rig | None = None
+    problem: str = ""
+
+    @property
+    def done(self) -> bool:
+        return self.head is not None or bool(self.problem)
+
+
+class Wardrobe:
+    """The rig of the house, and what it wears besides its own heads. Safe to use from several threads."""
+
+    def __init__(self, rig: Rig, tailor: Tailor, patience: float = 20.0, limit: int = LIMIT) -> None:
+        """Keep `limit` heads; whoever waits for one waits `patience` seconds at most for its turn."""
+        self._rig, self._tailor, self._patience, self._limit = rig, tailor, patience, limit
+        self._pegs: OrderedDict[str, _Peg] = OrderedDict()
+        self._lock = threading.Lock()
+        self._needle = threading.Lock()
+        self._ahead = ThreadPoolExecutor(1, thread_name_prefix="heads-ahead")
+        self._closed = False
+
+    @property
+    def space(self) -> IdentitySpace:
+        """The space of heads."""
+        return self._tailor.space
+
+    def read(self, document: object, where: str = "identity", *, children: bool = True) -> Identity:
+        """Return what a document describes.
+
+        Raises:
+            InvalidError: names the field, what was expected and what was got.
+        """
+        try:
+            identity = read_identity(document, self.space)
+            if not children:
+                require_adult(identity, self.space)
+        except EmogenError as error:
+            raise refusal(where, error) from error
+        return identity
+
+    def frozen(self, config: StudyConfig) -> StudyConfig:
+        """Return a study whose documents are checked, canonical and signed with their hashes.
+
+        Raises:
+            InvalidError: one is not a document, or a child's where the study does not allow children's heads.
+        """
+        conditions = []
+        for condition in config.conditions:
+            changes = dict(condition.changes)
+            if "identities" in changes:
+                own = config.in_condition(condition.name)
+                changes["identities"] = list(self._signed(own, f"conditions.{condition.name}.changes."))
+            conditions.append(condition.model_copy(update={"changes": changes}))
+        signed = {"identities": self._signed(config), "conditions": tuple(conditions)}
+        return config.model_copy(update=signed)
+
+    def _signed(self, config: StudyConfig, where: str = "") -> tuple[str | dict[str, Any], ...]:
+        heads: list[str | dict[str, Any]] = []
+        for place, head in enumerate(config.identities):
+            if isinstance(head, str):
+                heads.append(head)
+            else:
+                identity = self.read(head, f"{where}identities.{place}", children=config.children)
+                heads.append(signed_document(identity, self.space))
+        return tuple(heads)
+
+    def know(self, config: StudyConfig) -> None:
+        """Remember which documents a study has; nothing is fitted."""
+        with self._lock:
+            for name, document in config.documents.items():
+                self._pegs.setdefault(name, _Peg(document))
+
+    def prepare(self, config: StudyConfig) -> None:
+        """Have the heads of a study fitted in the background."""
+        for own in config.whole:
+            self.know(own)
+            for name in own.documents:
+                watched(self._ahead.submit(self._fit_ahead, name), "a head could not be fitted ahead")
+
+    def wait(self, identity: str) -> None:
+        """Return when a head can be worn: at once for the rig's own, else fitted here and now if need be.
+
+        Raises:
+            UnavailableError: others are being fitted for longer than anybody should wait.
+            ConflictError: this head cannot be fitted.
+        """
+        peg = self._peg(identity)
+        if peg is None:
+            return
+        if not peg.done:
+            self._fit(peg)
+        if peg.problem:
+            raise ConflictError(f"A head of this study cannot be used: {peg.problem}.", field="identities")
+
+    def rig(self, identity: str) -> Rig:
+        """Return a rig that wears a head.
+
+        Raises:
+            UnavailableError: it is not ready; `wait` makes it so.
+        """
+        peg = self._peg(identity)
+        return self._rig if peg is None else _there(peg.rig)
+
+    def head(self, identity: str) -> WornHead | None:
+        """Return a head as drawing processes need it, none for those that they have; raises as `rig`."""
+        peg = self._peg(identity)
+        return None if peg is None else _there(peg.head)
+
+    def ready(self, identity: str) -> tuple[WornHead, Rig] | None:
+        """Return a head of a study and the rig that wears it if it has been fitted already."""
+        peg = self._peg(identity)
+        head, rig = (peg.head, peg.rig) if peg else (None, None)
+        return (head, rig) if head and rig else None
+
+    def try_on(self, identity: Identity, wanted: Callable[[], None], *, moving: bool) -> WornHead:
+        """Return a head that no study has, fitted now and not kept.
+
+        Args:
+            identity: the head and its look.
+            wanted: called when its turn has come; raises where nobody waits for it any more.
+            moving: whether it has to do more than rest.
+
+        Raises:
+            InvalidError: it cannot be fitted.
+            UnavailableError: others are being fitted for longer than anybody should wait.
+        """
+        with _turn(self._needle, self._patience):
+            wanted()
+            try:
+                return self._tailor.fit(identity, moving=moving)
+            except EmogenError as error:
+                raise refusal("identity", error) from error
+
+    def close(self) -> None:
+        """Stop fitting."""
+        self._closed = True
+        self._ahead.shutdown(wait=True, cancel_futures=True)
+
+    def _peg(self, identity: str) -> _Peg | None:
+        with self._lock:
+            peg = self._pegs.get(identity)
+            if peg is not None:
+                self._pegs.move_to_end(identity)
+            return peg
+
+    def _fit(self, peg: _Peg) -> None:
+        with _turn(self._needle, self._patience):
+            if peg.done:
+                return
+            try:
+                head = self._tailor.fit(read_identity(peg.document, self.space))
+            except EmogenError as error:
+                peg.problem = str(error)
+                return
+            peg.rig, peg.head = worn_rig(self._rig, head), head
+        with self._lock:
+            for old in [one for one in self._pegs.values() if one.head is not None][: -self._limit]:
+                old.rig = old.head = None
+
+    def _fit_ahead(self, name: str) -> None:
+        peg = self._peg(name)
+        while peg is not None and not peg.done and not self._closed:
+            try:
+                self._fit(peg)
+            except UnavailableError:
+                continue
+
+
+def _there(made: Made | None) -> Made:
+    if made is None:
+        raise UnavailableError("A head of this study is still being made. Try again in a few seconds.", AGAIN)
+    return made
+
+
+@contextmanager
+def _turn(lock: threading.Lock, seconds: float) -> Iterator[None]:
+    """Hold a lock that is waited for so long and no longer."""
+    if not lock.acquire(timeout=seconds):
+        raise UnavailableError("Other heads are being made. Try again in a few seconds.", AGAIN)
+    try:
+        yield
+    finally:
+        lock.release()
+
+
+def refusal(where: str, error: EmogenError) -> InvalidError:
+    """Return an error of the core as one of a field of a request."""
+    found = re.fullmatch(r"(?:(.*?): )?expected (.*), got (.*)", str(error), re.DOTALL)
+    if found is None or not isinstance(error, IdentityError | ValueError):
+        return InvalidError(f"{where}: {error}.", field=where)
+    part, wanted, got = found.groups()
+    field = ".".join([where, *([] if part in {None, "identity"} else part.split(": "))])
+    return InvalidError(
+        f"The head cannot be used: {field}: expected {wanted}, got {got}.", field=field, expected=wanted, got=got
+    )

@@ -1,0 +1,1 @@
+"""Somebody takes part: arrival, place, steps, answers, the search behind them, and leaving."""

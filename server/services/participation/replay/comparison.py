@@ -1,0 +1,167 @@
+"""Recorded trials beside what configuration, seeds and choices give again, bit for bit."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from emogen_core.search import Choice, State, strategy
+
+from ...faces.correction import Correction
+from ...faces.sketch import unpack_genes, unpack_weights
+from ...trials.evolution import Evolution, params_of
+from ..plan import trial_seed
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from emogen_core.face.rig import Rig
+
+    from ....store.runs_tables import ChoiceRecord, Face, Generation, Trial
+    from ...config import StudyConfig
+    from ...faces.wardrobe import Wardrobe
+
+    Shown = Sequence[tuple[Generation, Sequence[Face], ChoiceRecord | None]]
+    Found = tuple[int | None, str, str, str]
+    """Slot, what, expected, got."""
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """The first place where the record and its replay disagree; empty where it is not about a generation or a slot."""
+
+    participation: str
+    trial: str
+    attempt: int | None
+    generation: int | None
+    slot: int | None
+    what: str
+    expected: str
+    got: str
+
+
+@dataclass(frozen=True, slots=True)
+class Replayed:
+    """What a replay covered, and the first difference if there is one."""
+
+    generations: int
+    difference: Difference | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Recorded:
+    """One participation as it was recorded.
+
+    Attributes:
+        participation: its id.
+        seed: of the participation, decimal.
+        config: the study as it had it, in its condition.
+        trials: in their order, each with the generations that were shown, in the order of showing, and their choices.
+    """
+
+    participation: str
+    seed: str
+    config: StudyConfig
+    trials: Sequence[tuple[Trial, Shown]]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Makes recorded faces again on a rig."""
+
+    rig: Rig
+    wardrobe: Wardrobe
+
+    def of(self, recorded: Recorded) -> Replayed:
+        """Return how much of a participation is made again, up to the first difference.
+
+        Raises:
+            ConflictError: a head that it saw cannot be fitted any more.
+        """
+        self.wardrobe.know(recorded.config)
+        for head in sorted({trial.identity for trial, _ in recorded.trials} - {""}):
+            self.wardrobe.wait(head)
+        count = 0
+        for trial, shown in recorded.trials:
+            for difference in self._trial(recorded, trial, shown):
+                count += difference is None or difference.generation is not None
+                if difference is not None:
+                    return Replayed(count, difference)
+        return Replayed(count, None)
+
+    @cached_property
+    def _correction(self) -> Correction:
+        return Correction(self.wardrobe.rig)
+
+    def _trial(self, recorded: Recorded, trial: Trial, shown: Shown) -> Iterator[Difference | None]:
+        """Yield for every generation what is different in it, and what is in the trial before and after them."""
+        yield from _amiss(trial, "seed", trial_seed(int(recorded.seed), trial.position), trial.seed)
+        yield from self._generations(recorded.config, trial, shown)
+        best = [choice.elite_face_id for _, _, choice in shown if choice is not None]
+        if trial.final_face_id:
+            yield from _amiss(trial, "final_face", best[-1] if best else "none", trial.final_face_id)
+
+    def _generations(self, config: StudyConfig, trial: Trial, shown: Shown) -> Iterator[Difference | None]:
+        search, state = strategy(config.search.strategy), None
+        for generation, faces, choice in shown:
+            if state is None or generation.attempt != state.attempt:
+                state = search.init(params_of(self.rig, config), int(trial.seed), generation.attempt)
+            found = self._compare(trial, config, state, (generation, faces)) or _not_offered(faces, choice)
+            place = trial.participation_id, trial.id, generation.attempt, generation.number
+            yield Difference(*place, *found) if found else None
+            if choice is not None:
+                state = search.tell(params_of(self.rig, config, state), state, _told(faces, choice))
+
+    def _compare(
+        self, trial: Trial, config: StudyConfig, state: State, recorded: tuple[Generation, Sequence[Face]]
+    ) -> Found | None:
+        generation, faces = recorded
+        if generation.number != state.generation or len(faces) != 10:
+            return None, "generation", f"{state.generation}", f"{generation.number} with {len(faces)} faces"
+        evolution = Evolution(self.rig, config, self._correction, lambda *_: "")
+        _, again = evolution.offer(trial, state)
+        places = evolution.places(state)
+        for face, made in zip(faces, again, strict=True):
+            for what in ("slot", "origin", "parents", "genes", "weights", *_collision_columns(face)):
+                expected, got = getattr(made, what), getattr(face, what)
+                if expected != got:
+                    return face.slot, what, *self._told_apart(what, expected, got)
+            if places[face.place - 1] != face.slot:
+                return face.slot, "place", f"{places.index(face.slot) + 1}", f"{face.place}"
+        return None
+
+    def _told_apart(self, what: str, expected: Any, got: Any) -> tuple[str, str]:
+        """Return two different values in words; of a vector, its first entry that differs."""
+        if not isinstance(got, bytes) or len(expected) != len(got):
+            return str(expected), str(got)
+        names, unpack = (
+            (self.rig.gene_names, unpack_genes) if what == "genes" else (self.rig.shape_names, unpack_weights)
+        )
+        size = len(got) // len(names)
+        at = next(i for i in range(len(names)) if expected[i * size :][:size] != got[i * size :][:size])
+        wanted, found = (f"{names[at]} = {unpack(data)[at]}" for data in (expected, got))
+        return wanted, found
+
+
+def _collision_columns(face: Face) -> tuple[str, ...]:
+    """Return the columns of the collision's result; none for a face that was stored before there were any."""
+    columns = ("collided_lips", "collided_teeth", "depth_before", "depth_after")
+    return columns if any(getattr(face, column) is not None for column in columns) else ()
+
+
+def _amiss(trial: Trial, what: str, expected: str, got: str) -> Iterator[Difference]:
+    if expected != got:
+        yield Difference(trial.participation_id, trial.id, None, None, None, what, expected, got)
+
+
+def _not_offered(faces: Sequence[Face], choice: ChoiceRecord | None) -> Found | None:
+    """Return what a choice names that was not there."""
+    named = {*choice.selected, choice.elite_face_id} if choice else set()
+    strange = named - {face.id for face in faces}
+    return (None, "choice", "faces of this generation", ", ".join(sorted(strange))) if strange else None
+
+
+def _told(faces: Sequence[Face], choice: ChoiceRecord) -> Choice:
+    slots = {face.id: face.slot for face in faces}
+    return Choice(tuple(sorted(slots[face] for face in choice.selected)), slots[choice.elite_face_id])

@@ -1,0 +1,191 @@
+"""Replays an export: nothing but its files, the rig and this program."""
+
+from __future__ import annotations
+
+import json
+from collections import defaultdict
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ....store.runs_tables import ChoiceRecord, Face, Generation, Trial
+from ...faces.sketch import pack_genes, pack_weights
+from ..recorded_export import RecordedExport, matrix
+from .comparison import Comparison, Difference, Recorded, Replayed
+from .stored import other_rig
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+
+    import pyarrow as pa
+    from numpy.typing import NDArray
+
+    from emogen_client import Export
+    from emogen_core.face.rig import Rig
+
+    from ...faces.wardrobe import Wardrobe
+
+    Row = dict[str, Any]
+    Where = tuple[str, int, int]
+    """Trial, attempt, generation."""
+
+
+@dataclass(frozen=True)
+class ExportReplay:
+    """Replays the participations of an export that were recorded on a rig.
+
+    Raises:
+        EmogenClientError: the export lacks a file, or one is not the one that its manifest tells of.
+    """
+
+    export: Export
+    rig: Rig
+    wardrobe: Wardrobe
+
+    def everybody(self, done: Callable[[int, int], object] = lambda _done, _of: None) -> Replayed:
+        """Replay every participation, up to the first difference.
+
+        Args:
+            done: told after each how many are done, of how many.
+
+        Raises:
+            NotFoundError: one was recorded on another face model.
+            ConflictError: a head cannot be fitted any more.
+        """
+        comparison, count = Comparison(self.rig, self.wardrobe), 0
+        for at, row in enumerate(self._people, 1):
+            recorded = self.recorded(row)
+            replayed = comparison.of(recorded) if isinstance(recorded, Recorded) else Replayed(0, recorded)
+            count += replayed.generations
+            if replayed.difference:
+                return Replayed(count, replayed.difference)
+            done(at, len(self._people))
+        return Replayed(count, None)
+
+    def participations(self) -> Iterator[Recorded]:
+        """Yield every participation whose configuration is the one that it names."""
+        for row in self._people:
+            recorded = self.recorded(row)
+            if isinstance(recorded, Recorded):
+                yield recorded
+
+    def recorded(self, row: Row) -> Recorded | Difference:
+        """Return a participation as the export has it, or what is wrong in the export itself."""
+        if row["rig_hash"] != self.rig.hash:
+            raise other_rig(self.rig.hash, row["rig_hash"])
+        who = row["participation"]
+        wrong = self._record.wrong(row)
+        if wrong:
+            return _amiss(who, *wrong)
+        marked = self._marked(who)
+        if marked:
+            return marked
+        trials = [(trial, self._shown(trial)) for trial in self._trials[who]]
+        return Recorded(who, row["seed"], self._record.own(row), trials)
+
+    def _marked(self, who: str) -> Difference | None:
+        """Return the first face whose row says something else of its choice than the choice does."""
+        for where in (place for trial in self._trials[who] for place in self._generations[trial.id]):
+            choice = self._choices.get(where)
+            for _, face in self._offered[where]:
+                chosen = choice and (face["face"] in json.loads(choice["selected"]), face["face"] == choice["elite"])
+                if (chosen or (None, None)) != (face["selected"], face["elite"]):
+                    told = f"selected, best: {chosen}", f"{face['selected']}, {face['elite']}"
+                    return Difference(who, *where, face["slot"], "marks", *told)
+        return None
+
+    def _shown(self, trial: Trial) -> list[tuple[Generation, list[Face], ChoiceRecord | None]]:
+        return [
+            (
+                Generation(trial_id=trial.id, attempt=where[1], number=where[2]),
+                [self._face(at, row) for at, row in self._offered[where]],
+                _choice(self._choices.get(where)),
+            )
+            for where in self._generations[trial.id]
+        ]
+
+    def _face(self, at: int, row: Row) -> Face:
+        return Face(
+            id=row["face"],
+            slot=row["slot"],
+            place=row["place"],
+            origin=row["origin"],
+            parents=json.loads(row["parents"]),
+            identity=row["identity"],
+            genes=pack_genes(self._genes[at]),
+            weights=pack_weights(self._weights[at].astype(np.float32)),
+            collided_lips=row["collided_lips"],
+            collided_teeth=row["collided_teeth"],
+            depth_before=row["depth_before_mm"],
+            depth_after=row["depth_after_mm"],
+        )
+
+    @cached_property
+    def _people(self) -> list[Row]:
+        """The participations that were not erased; of those a row is all that is left."""
+        return [row for row in self.export.arrow("participations").to_pylist() if row["erased_at"] is None]
+
+    @cached_property
+    def _record(self) -> RecordedExport:
+        return RecordedExport(self.export)
+
+    @cached_property
+    def _trials(self) -> Mapping[str, list[Trial]]:
+        found: dict[str, list[Trial]] = defaultdict(list)
+        for row in sorted(self.export.arrow("trials").to_pylist(), key=lambda row: row["position"]):
+            if row["kind"] == "evolve":
+                found[row["participation"]].append(
+                    Trial(
+                        id=row["trial"], participation_id=row["participation"], position=row["position"],
+                        identity=row["identity"], seed=row["seed"], final_face_id=row["final_face"],
+                    )
+                )  # fmt: skip
+        return found
+
+    @cached_property
+    def _generations(self) -> Mapping[str, list[Where]]:
+        found: dict[str, list[Where]] = defaultdict(list)
+        for row in self.export.arrow("generations").to_pylist():
+            found[row["trial"]].append(_where(row))
+        return {trial: sorted(places) for trial, places in found.items()}
+
+    @cached_property
+    def _choices(self) -> Mapping[Where, Row]:
+        return {_where(row): row for row in self.export.arrow("choices").to_pylist()}
+
+    @cached_property
+    def _faces(self) -> pa.Table:
+        return self.export.arrow("faces")
+
+    @cached_property
+    def _offered(self) -> Mapping[Where, list[tuple[int, Row]]]:
+        """The faces of every generation by slot, each with its row in the table."""
+        found: dict[Where, list[tuple[int, Row]]] = defaultdict(list)
+        plain = [name for name in self._faces.column_names if not name.startswith(("gene_", "weight_"))]
+        for at, row in enumerate(self._faces.select(plain).to_pylist()):
+            found[_where(row)].append((at, row))
+        for faces in found.values():
+            faces.sort(key=lambda one: one[1]["slot"])
+        return found
+
+    @cached_property
+    def _genes(self) -> NDArray[np.float64]:
+        return matrix(self._faces, "gene_", self.rig.gene_names)
+
+    @cached_property
+    def _weights(self) -> NDArray[np.float64]:
+        return matrix(self._faces, "weight_", self.rig.shape_names)
+
+
+def _where(row: Row) -> Where:
+    return row["trial"], row["attempt"], row["generation"]
+
+
+def _choice(row: Row | None) -> ChoiceRecord | None:
+    return ChoiceRecord(selected=json.loads(row["selected"]), elite_face_id=row["elite"]) if row else None
+
+
+def _amiss(who: str, what: str, expected: str, got: str) -> Difference:
+    return Difference(who, "", None, None, None, what, expected, got)

@@ -1,0 +1,1 @@
+"""Who works here: accounts, roles, keys, and the trail of what they did."""

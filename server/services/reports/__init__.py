@@ -1,0 +1,1 @@
+"""What came of a study: monitor, people and their records, results, export."""

@@ -1,0 +1,1 @@
+"""How a study goes while people take part: the live page and the list of studies."""

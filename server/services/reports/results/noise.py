@@ -1,0 +1,150 @@
+"""The noise of a study's own search, simulated once for its settings and face model and then remembered.
+
+Some hundred simulated searches take a second, so they run behind the page, which says so until they are there. The
+result is a small file under the hash of everything that it depends on: other processes and later starts find it.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import logging
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict, dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from emogen_core.simulation.evaluation.laboratory import Laboratory
+from emogen_core.simulation.evaluation.results import Spread
+from emogen_core.simulation.evaluation.threshold import SEARCHES, Noise, Threshold, threshold
+
+from ...background import watched
+from ...errors import UnavailableError
+from ...trials.evolution import algorithm_of, simulated
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future
+    from pathlib import Path
+
+    from emogen_core.face.rig import Rig
+
+    from ...config import StudyConfig
+
+logger = logging.getLogger(__name__)
+
+SEED = 1
+"""As of the command that the page names, so that it prints the same numbers."""
+PAUSE = 0.001
+"""Seconds after every generation in which those who answer participants go first."""
+VERSION = 4
+"""Counted up when the same settings come to give other numbers."""
+
+
+@dataclass(frozen=True, slots=True)
+class Settling:
+    """How far simulated people's best faces are from their results, a number for every generation but the last.
+
+    Attributes:
+        faithful: mean of those who never err.
+        noisy: mean of those whose judged distances have a noise of .1.
+        random: mean of those who choose at random.
+        near: how far those who never err end from the face in mind: whoever is nearer to the own result has settled.
+    """
+
+    faithful: tuple[float, ...]
+    noisy: tuple[float, ...]
+    random: tuple[float, ...]
+    near: float
+
+
+def settling_of(noise: Threshold | None) -> Settling | None:
+    """Return how simulated people settle, once the noise is known."""
+    if noise is None:
+        return None
+    kinds = (noise.faithful, noise.noisy, noise.random)
+    faithful, noisy, random = (tuple(one.mean for one in kind.settling) for kind in kinds)
+    return Settling(faithful, noisy, random, noise.faithful.error.mean)
+
+
+@dataclass(frozen=True)
+class NoiseOfSearch:
+    """Knows the noise of every search that was asked for."""
+
+    rig: Rig
+    folder: Path
+    searches: int = SEARCHES
+    _known: dict[str, Threshold] = field(default_factory=dict)
+    _running: dict[str, Future[None]] = field(default_factory=dict)
+    _lock: threading.Lock = field(default_factory=threading.Lock)
+    _closed: threading.Event = field(default_factory=threading.Event)
+    _behind: ThreadPoolExecutor = field(default_factory=lambda: ThreadPoolExecutor(1, thread_name_prefix="noise"))
+
+    def of(self, config: StudyConfig) -> Threshold | None:
+        """Return the noise of a study's search, or nothing while it is being simulated."""
+        key = self._key(config)
+        with self._lock:
+            found = self._known.get(key) or self._read(key)
+            if found is not None:
+                self._known[key] = found
+            elif key not in self._running:
+                self._running[key] = self._behind.submit(self._simulate, key, config)
+                watched(self._running[key], "the noise of a search could not be simulated")
+            return found
+
+    def settle(self) -> None:
+        """Wait until everything that was asked for is known. For tests."""
+        self._behind.submit(lambda: None).result()
+
+    def close(self) -> None:
+        """Stop, also in the middle of a simulation."""
+        self._closed.set()
+        self._behind.shutdown(wait=True, cancel_futures=True)
+
+    def _simulate(self, key: str, config: StudyConfig) -> None:
+        def pause() -> None:
+            if self._closed.wait(PAUSE):
+                raise UnavailableError("The server is stopping.")
+
+        try:
+            params, drawn = simulated(self.rig, config)
+            laboratory = Laboratory(self.rig, self.rig.identities[0], SEED, params, pause, drawn)
+            noise = threshold(laboratory, self.searches)
+            with self._lock:
+                self._known[key] = noise
+        finally:
+            with self._lock:
+                self._running.pop(key, None)  # a failure is tried again when somebody asks
+        self._write(key, noise)
+
+    def _key(self, config: StudyConfig) -> str:
+        """Return the hash of all that the noise depends on; a study's texts do not change it."""
+        params, drawn = simulated(self.rig, config)
+        told: dict[str, Any] = asdict(params) | {"drawn": None if drawn is None else drawn.tolist()}
+        told |= {"rig": self.rig.hash, "algorithm": algorithm_of(config), "version": VERSION, "searches": self.searches}
+        return hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()
+
+    def _read(self, key: str) -> Threshold | None:
+        try:
+            return _threshold(json.loads((self.folder / f"{key}.json").read_text(encoding="utf-8")))
+        except (OSError, ValueError, KeyError, TypeError, AttributeError):
+            return None
+
+    def _write(self, key: str, noise: Threshold) -> None:
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+            part = self.folder / f".{key}.{threading.get_ident()}.part"
+            part.write_text(json.dumps(asdict(noise)), encoding="utf-8")
+            part.replace(self.folder / f"{key}.json")
+        except OSError as error:
+            logger.warning("the noise of a search cannot be kept on disk: %s", error)
+
+
+def _threshold(told: dict[str, Any]) -> Threshold:
+    """Return a threshold from what was written of it."""
+    faithful, noisy, random = (_noise(told[name]) for name in ("faithful", "noisy", "random"))
+    return Threshold(told["searches"], faithful, noisy, random, told["no_answer"], Spread(**told["paper"]))
+
+
+def _noise(told: dict[str, Any]) -> Noise:
+    spreads = {name: Spread(**told[name]) for name in ("error", "apart", "proxy")}
+    return Noise(settling=tuple(Spread(**one) for one in told["settling"]), right=told["right"], **spreads)

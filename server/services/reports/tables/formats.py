@@ -1,0 +1,203 @@
+"""Batches as files: CSV, JSON Lines, Parquet. Each writer gives bytes as they become ready and keeps no more."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from typing import TYPE_CHECKING, Literal, Protocol
+
+import numpy as np
+import orjson
+import pyarrow as pa
+import pyarrow.compute as pc
+from pyarrow import csv as arrow_csv
+from pyarrow import parquet
+
+from ...spreadsheet import FORMULA_STARTS
+from .sink import Sink
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+Format = Literal["csv", "jsonl", "parquet"]
+GROUP_ROWS = 8192
+"""Rows of a row group of Parquet: fewer make a long footer, more want memory."""
+_ESCAPED = r'[\x00-\x1f"\\]'
+"""What does not stand in a JSON string as it is."""
+_TIME = "%Y-%m-%dT%H:%M:%S+00:00"
+
+
+class Writer(Protocol):
+    """Turns batches into the bytes of a file, from its begin to its end."""
+
+    def begin(self) -> bytes:
+        """Return what stands before the rows."""
+
+    def rows(self, batch: pa.RecordBatch) -> bytes:
+        """Return what rows become, as far as it is ready."""
+
+    def end(self) -> bytes:
+        """Return the rest."""
+
+
+def writer(form: Format, schema: pa.Schema) -> Writer:
+    """Return the writer of a format."""
+    return _WRITERS[form](schema)
+
+
+class _Csv:
+    def __init__(self, schema: pa.Schema) -> None:
+        self._names = schema.names
+        self._options = arrow_csv.WriteOptions(include_header=False)
+
+    def begin(self) -> bytes:
+        buffer = io.StringIO()
+        csv.writer(buffer, lineterminator="\n").writerow(self._names)
+        return buffer.getvalue().encode()
+
+    def rows(self, batch: pa.RecordBatch) -> bytes:
+        sink = pa.BufferOutputStream()
+        plain = pa.record_batch([_cell(column) for column in batch.columns], names=self._names)
+        arrow_csv.write_csv(plain, sink, self._options)
+        return bytes(sink.getvalue())
+
+    def end(self) -> bytes:
+        return b""
+
+
+def _cell(column: pa.Array) -> pa.Array:
+    if pa.types.is_string(column.type):
+        return _guarded(column)
+    return _number(column) if pa.types.is_floating(column.type) else _time(column)
+
+
+def _guarded(column: pa.Array) -> pa.Array:
+    """Return text that a spreadsheet does not take for formulas, as spreadsheet.guarded does one by one."""
+    risky = pc.is_in(pc.utf8_slice_codeunits(column, 0, 1), pa.array(FORMULA_STARTS))
+    return pc.if_else(risky, pc.binary_join_element_wise("'", column, ""), column) if risky.true_count else column
+
+
+def _number(column: pa.Array) -> pa.Array:
+    """Return numbers in double precision: whoever reads digits reads doubles, and finds exactly what was stored."""
+    return column if pa.types.is_float64(column.type) else column.cast(pa.float64())
+
+
+def _time(column: pa.Array) -> pa.Array:
+    return pc.strftime(column, _TIME) if pa.types.is_timestamp(column.type) else column
+
+
+class _JsonLines:
+    """Rows are put together from columns of text: a name, a value, and the comma that comes before the next name.
+
+    A number brings its comma along, since all numbers of a batch are written at once (`_numbers`).
+    """
+
+    def __init__(self, schema: pa.Schema) -> None:
+        self._numbers = [place for place, kind in enumerate(schema.types) if pa.types.is_floating(kind)]
+        self._nested = {place for place, field in enumerate(schema) if (field.metadata or {}).get(b"type") == b"json"}
+        self._names = [
+            pa.scalar(f"{self._before(place)}{json.dumps(name)}:") for place, name in enumerate(schema.names)
+        ]
+
+    def begin(self) -> bytes:
+        return b""
+
+    def rows(self, batch: pa.RecordBatch) -> bytes:
+        numbers = dict(zip(self._numbers, _numbers([batch.column(place) for place in self._numbers]), strict=True))
+        values = [
+            numbers[place] if place in numbers else _value(column, nested=place in self._nested)
+            for place, column in enumerate(batch.columns)
+        ]
+        if len(values) - 1 in numbers:
+            values[-1] = pc.ascii_rtrim(values[-1], ",")
+        pieces = [piece for pair in zip(self._names, values, strict=True) for piece in pair]
+        return _joined(pc.binary_join_element_wise(*pieces, "}\n", ""))
+
+    def end(self) -> bytes:
+        return b""
+
+    def _before(self, place: int) -> str:
+        if place == 0:
+            return "{"
+        return "" if place - 1 in self._numbers else ","
+
+
+def _joined(lines: pa.Array) -> bytes:
+    """Return all texts one after the other, which is how Arrow keeps them."""
+    _, offsets, data = lines.buffers()
+    ends = memoryview(offsets).cast("i")
+    return bytes(memoryview(data)[ends[lines.offset] : ends[lines.offset + len(lines)]])
+
+
+def _numbers(columns: list[pa.Array]) -> list[pa.Array]:
+    """Return columns of numbers as JSON, a comma after every one.
+
+    One list of all of them, which orjson writes in a fraction of the time that Arrow needs for a column, is already
+    the texts one after the other that Arrow wants; only where they end has to be found.
+    """
+    if not columns:
+        return []
+    table = np.stack([column.to_numpy(zero_copy_only=False) for column in columns], dtype=np.float64)
+    data = bytearray(orjson.dumps(table.ravel(), option=orjson.OPT_SERIALIZE_NUMPY))
+    data[-1:] = b","
+    ends = np.flatnonzero(np.frombuffer(data, np.uint8) == ord(",")).astype(np.int32) + 1
+    offsets = np.concatenate([np.ones(1, np.int32), ends])
+    cells = pa.StringArray.from_buffers(table.size, pa.py_buffer(offsets), pa.py_buffer(data))
+    rows = table.shape[1]
+    return [cells[begin : begin + rows] for begin in range(0, table.size, rows)]
+
+
+def _value(column: pa.Array, *, nested: bool) -> pa.Array:
+    """Return a column without numbers as JSON; what is JSON already stays as it is."""
+    value = column if nested else _plain(column)
+    return pc.fill_null(value, "null") if value.null_count else value
+
+
+def _plain(column: pa.Array) -> pa.Array:
+    if pa.types.is_string(column.type):
+        return _quoted(column)
+    if pa.types.is_timestamp(column.type):
+        return pc.binary_join_element_wise('"', _time(column), '"', "")
+    return column.cast(pa.string())
+
+
+def _quoted(column: pa.Array) -> pa.Array:
+    """Return text as JSON strings; what occurs often is written once."""
+    if not pc.match_substring_regex(column, _ESCAPED).true_count:
+        return pc.binary_join_element_wise('"', column, '"', "")
+    coded = column.dictionary_encode()
+    words = pa.array([json.dumps(word, ensure_ascii=False) for word in coded.dictionary.to_pylist()], pa.string())
+    return words.take(coded.indices)
+
+
+class _Parquet:
+    def __init__(self, schema: pa.Schema) -> None:
+        self._sink = Sink()
+        texts = [field.name for field in schema if pa.types.is_string(field.type)]
+        self._file = parquet.ParquetWriter(
+            pa.PythonFile(self._sink, "w"), schema, compression="zstd", use_dictionary=texts
+        )
+        self._waiting: list[pa.RecordBatch] = []
+
+    def begin(self) -> bytes:
+        return self._sink.taken()
+
+    def rows(self, batch: pa.RecordBatch) -> bytes:
+        self._waiting.append(batch)
+        if sum(one.num_rows for one in self._waiting) >= GROUP_ROWS:
+            self._write()
+        return self._sink.taken()
+
+    def end(self) -> bytes:
+        self._write()
+        self._file.close()
+        return self._sink.taken()
+
+    def _write(self) -> None:
+        if self._waiting:
+            self._file.write_table(pa.Table.from_batches(self._waiting))
+            self._waiting = []
+
+
+_WRITERS: dict[Format, Callable[[pa.Schema], Writer]] = {"csv": _Csv, "jsonl": _JsonLines, "parquet": _Parquet}

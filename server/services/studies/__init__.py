@@ -1,0 +1,1 @@
+"""Making studies, changing them, inviting people, sending simulated ones."""

@@ -1,0 +1,5 @@
+// The page of a trial of type rate.
+
+import { start } from "./item.js";
+
+start();
