@@ -6,6 +6,7 @@ import base64
 import threading
 from concurrent.futures import Future
 
+import hypothesis
 import pytest
 from starlette.testclient import TestClient
 
@@ -19,6 +20,10 @@ from server.services.house import build_house
 from server.settings import Settings
 from tests.rig_factory import small_rig
 from tests.server.postgres import fresh, running
+
+# A test must not fail because the machine is busy.
+hypothesis.settings.register_profile("untimed", deadline=None)
+hypothesis.settings.load_profile("untimed")
 
 PIXEL = base64.b64decode("iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGM4CQAAywDKWvQYfgAAAABJRU5ErkJggg==")
 

@@ -1,3 +1,7 @@
 """The server and the browser that these tests share."""
 
-from tests.browser.fixtures import browser, context, phone, player, stage  # noqa: F401
+import pytest
+
+pytest.register_assert_rewrite("tests.browser.checks")
+
+from tests.browser.fixtures import browser, context, phone, player, stage  # noqa: E402, F401

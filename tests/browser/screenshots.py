@@ -20,11 +20,6 @@ SHOWN = {
     "dark": {**STUDIES["pictures"], **SHORT, "surround": "dark"},
     "closed": STUDIES["pictures"],
 }
-ACCOUNT = {
-    "Your name": "Ines Marchetti",
-    "Email address": "ines.marchetti@westbrook.example",
-    "Password": "four unrelated quiet words",
-}
 
 
 class Camera:
@@ -45,13 +40,10 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as data, running(Path(data), SHOWN) as stage, chromium() as browser:
         for device, options in (("desktop", DESKTOP), ("phone", PHONE)):
-            context = browser.new_context(**options)
-            participation(stage, Camera(folder, device, context.new_page()))
-            context.close()
-            context = browser.new_context(**options)
-            others(stage, Camera(folder, device, context.new_page()))
-            context.close()
-        desk(stage, Camera(folder, "desktop", browser.new_page(**DESKTOP)))
+            for walk in (participation, others):
+                context = browser.new_context(**options)
+                walk(stage, Camera(folder, device, context.new_page()))
+                context.close()
 
 
 def participation(stage, camera):
@@ -164,42 +156,6 @@ def others(stage, camera):
     camera.take("unknown-link", whole=True)
     page.goto(stage.link("closed"))
     camera.take("study-closed", whole=True)
-
-
-def desk(stage, camera):
-    """The experimenter's pages, after the participations above."""
-    page = camera.page
-    page.goto(stage.setup)
-    camera.take("admin-setup", whole=True)
-    for label, value in ACCOUNT.items():
-        page.get_by_label(label).fill(value)
-    page.get_by_role("button", name="Create the account").click()
-    page.wait_for_url("**/admin/studies")
-    camera.take("admin-studies", whole=True)
-    page.get_by_role("link", name=STUDIES["pictures"]["title"]).first.click()
-    page.wait_for_load_state()
-    camera.take("admin-study", whole=True)
-    heads(stage, camera)
-    page.goto(f"{stage.address}/admin/tokens")
-    camera.take("admin-tokens", whole=True)
-    page.context.clear_cookies()
-    page.goto(f"{stage.address}/admin/login")
-    camera.take("admin-sign-in", whole=True)
-
-
-def heads(stage, camera):
-    """The editor with a head of its own that smiles."""
-    page = camera.page
-    page.goto(f"{stage.address}/admin/heads?from=male")
-    page.wait_for_load_state("networkidle")
-    page.locator("summary", has_text="Nose").click()
-    for name, value in (("name", "Fifty-two"), ("p-age", "52"), ("p-nose-width", "0.4"), ("p-look-grey", "0.5")):
-        page.locator(f"#{name}").evaluate("(input, value) => { input.value = value }", value)
-        page.locator(f"#{name}").dispatch_event("input", {"bubbles": True})
-    page.locator("#e-happy").check(force=True)
-    page.locator("#status", has_text="Drawn in").wait_for()
-    page.evaluate("scrollTo(0, 0)")
-    camera.take("admin-heads", whole=True)
 
 
 if __name__ == "__main__":

@@ -2,29 +2,22 @@
 
 from __future__ import annotations
 
-import os
 import re
-import shutil
 import sqlite3
 import subprocess
-import sys
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from playwright.sync_api import sync_playwright
-
 from emogen_core.errors import EmogenError
 from emogen_core.rendering.setup import make_renderer
+from server.cli.chromium import chromium  # noqa: F401 - the browser of every test comes from here
+from server.cli.local import served
 from server.services.clock import digest
 from server.services.config import DEMO, Emotion
-from server.services.drawing import open_house
+from server.services.opening import open_house
 from server.settings import Settings
 
-SWITCHES = [
-    "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-    "--disable-component-update", "--disable-sync",
-]  # fmt: skip
 SMALL = {"emotions": (Emotion(adjective="angry", noun="anger"),), "generations": 2, "portrait": {"width": 200}}
 TEXTS = {
     "organisation": "University of Westbrook",
@@ -35,12 +28,34 @@ TEXTS = {
     "payment": "£4.20 via Prolific",
     "erase_until": "6 December 2026",
 }
+BLOCKS = (
+    {
+        "kind": "questionnaire", "name": "about", "title": "About you",
+        "items": (
+            {"name": "age", "kind": "number", "text": "How old are you?", "least": 18, "most": 110},
+            {"name": "gender", "kind": "single", "text": "What is your gender?", "options": ("woman", "man")},
+            {"name": "mood", "kind": "scale", "text": "How are you?", "low": "Very bad", "high": "Very good"},
+            {"name": "words", "kind": "text", "text": "Anything to add?", "required": False},
+        ),
+    },
+    {"kind": "evolve", "name": "first"},
+    {"kind": "rate", "name": "strength", "questions": ("intensity",)},
+    {
+        "kind": "categorise", "name": "reading", "labels": ("angry", "sad", "fearful", "happy", "disgusted"),
+        # The faces of others, the default, would make a test as long as those before it left faces behind.
+        "faces": {"sources": ("own",)},
+    },
+)  # fmt: skip
 STUDIES = {
     "full": {"portrait": {"width": 200}},
     "small": SMALL,
+    "asking": {**SMALL, "none_is_close": True, "pause_ms": 900},
+    "ordered": {**SMALL, "places": "fixed"},
+    "unrated": {**SMALL, "ratings": ()},
     "limited": {**SMALL, "maximum": 3, "minimum": 2},
     "dark": {**SMALL, "surround": "dark"},
     "pictures": {"title": "How do people picture emotions?", "texts": TEXTS, "identities": ("female",)},
+    "blocks": {**SMALL, "practice": None, "generations": 1, "ratings": (), "blocks": BLOCKS},
     "closed": SMALL,
 }
 
@@ -52,6 +67,7 @@ class Stage:
     folder: Path
     address: str
     setup: str
+    process: subprocess.Popen
     links: dict[str, str] = field(default_factory=dict)
 
     def link(self, study, query=""):
@@ -79,8 +95,8 @@ def drawing():
 def running(folder, studies=STUDIES, **environment):
     """Serve studies from a folder, in a process of its own."""
     links = _make_studies(folder, studies)
-    with _process(folder, environment) as (address, setup):
-        yield Stage(folder, address, setup, links)
+    with served(folder, **{"EMOGEN_RENDERER": drawing(), **environment}) as server:
+        yield Stage(folder, server.address, server.setup, server.process, links)
 
 
 def _make_studies(folder, studies):
@@ -93,43 +109,8 @@ def _make_studies(folder, studies):
 
 def _link(house, name, changes):
     config = DEMO.model_validate({**DEMO.model_dump(), **changes})
-    status = "closed" if name == "closed" else "recruiting"
+    status = "closed" if name.startswith("closed") else "recruiting"
     return house.studies.create(config, status).links[0]
-
-
-@contextmanager
-def _process(folder, environment):
-    """Start `emogen serve` on a free port; it says in its first lines where it listens and how to set it up."""
-    told = {"EMOGEN_DATA_DIR": str(folder), "EMOGEN_PORT": "0", "EMOGEN_RENDERER": drawing(), **environment}
-    command = [str(Path(sys.executable).parent / "emogen"), "serve"]
-    with (folder / "server.log").open("w", encoding="utf-8") as log:
-        process = subprocess.Popen(
-            command, env={**os.environ, **told}, stdout=subprocess.PIPE, stderr=log, text=True, cwd=folder
-        )
-        with process:
-            try:
-                yield _links(process, folder)
-            finally:
-                process.terminate()
-
-
-def _links(process, folder):
-    assert process.stdout is not None
-    for line in process.stdout:
-        if found := re.search(r"(http://[\w.]+:\d+)/admin(\S*)", line):
-            return found[1], found[0]
-    raise RuntimeError((folder / "server.log").read_text(encoding="utf-8"))
-
-
-@contextmanager
-def chromium():
-    """Start the system's Chromium, or the one that Playwright installed."""
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=SWITCHES)
-        try:
-            yield browser
-        finally:
-            browser.close()
 
 
 def participation_of(stage, page):

@@ -1,30 +1,20 @@
-"""axe on every page and state, headings, language, and what a page without sight or colour must still say."""
+"""States beside those that test_languages walks through, and what a page without sight or colour must still say."""
 
 from __future__ import annotations
 
 import re
 
 import pytest
-from axe_playwright_python.sync_playwright import Axe
 
+from tests.browser import checks
 from tests.browser.player import Player
 
 pytestmark = pytest.mark.browser
 
-RULES = {
-    "runOnly": {"type": "tag", "values": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]},
-    # Text over a picture cannot be judged by a program.
-    "resultTypes": ["violations"],
-}
-
 
 def must_be_accessible(page):
-    found = Axe().run(page, options=RULES).response["violations"]
-    told = [(rule["id"], [node["html"][:200] for node in rule["nodes"]]) for rule in found]
-    assert told == []
-    assert page.locator("h1").count() == 1
-    assert page.evaluate("document.documentElement.lang") == "en"
-    assert page.evaluate("document.documentElement.dir") == "ltr"
+    checks.accessible(page)
+    checks.built(page)
 
 
 def test_paper_pages(stage, player):

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from .conditions import apart
+from .player import Player
 from .stage import participation_of
 
 pytestmark = pytest.mark.browser
@@ -27,18 +29,37 @@ def test_tiles_fill_the_window_without_scrolling(evolving):
         assert page.evaluate("document.documentElement.scrollHeight <= innerHeight")
 
 
-def test_low_window_asks_for_a_larger_one(evolving):
-    evolving.page.set_viewport_size({"width": 900, "height": 420})
-    assert evolving.page.locator(".too-small").is_visible()
-    assert not evolving.page.locator(".tile").first.is_visible()
+# A zoomed page is a low window: 1920x1080 at 250 %, a browser beside another one, a phone on its side.
+@pytest.mark.parametrize("size", [(768, 432), (900, 420), (1280, 400), (700, 470), (640, 400), (740, 360)])
+def test_in_a_low_window_each_face_is_seen_whole_by_scrolling(evolving, size):
+    page = evolving.page
+    page.set_viewport_size({"width": size[0], "height": size[1]})
+    for tile in page.locator(".tile").all():
+        tile.scroll_into_view_if_needed()
+        box = tile.bounding_box()
+        assert box["width"] >= 130
+        assert round(box["y"]) >= 0 and round(box["y"] + box["height"]) <= size[1]
+    assert page.evaluate("document.documentElement.scrollWidth") == size[0]
+    page.locator("#next").scroll_into_view_if_needed()
+    assert page.locator("#next").is_visible()
 
 
-@pytest.mark.parametrize("width", [320, 390, 640])
+@pytest.mark.parametrize("size", [(640, 400), (700, 470), (900, 420)])
+def test_somebody_who_zoomed_before_gets_to_the_next_faces(stage, browser, size):
+    """No bar sticks in a low window, so none may be counted as covering faces that were in view."""
+    context = browser.new_context(viewport={"width": size[0], "height": size[1]})
+    player = Player(context.new_page()).begin(stage.link("small"))
+    player.choose(1).next().wait_generation("Generation 1 of")
+    assert player.problems == []
+    context.close()
+
+
+@pytest.mark.parametrize("width", [320, 390, 640, 767])
 def test_narrow_pages_never_scroll_sideways(evolving, width):
     evolving.page.set_viewport_size({"width": width, "height": 700})
     assert evolving.page.evaluate("document.documentElement.scrollWidth") == width
     first, second = (evolving.tile(index).bounding_box() for index in (0, 1))
-    assert first["y"] == second["y"] and first["width"] > width / 2 - 30
+    assert first["y"] == second["y"] and first["width"] > width / 2 - 40
 
 
 def test_one_face_is_best_by_definition(evolving):
@@ -47,7 +68,7 @@ def test_one_face_is_best_by_definition(evolving):
     evolving.choose(2)
     assert evolving.status() == "Selected 2 · mark the closest"
     assert evolving.page.locator(".best:checked").count() == 0
-    evolving.page.wait_for_timeout(320)
+    apart(evolving.page)
     evolving.choose(2)
     assert evolving.status() == "Selected 1 · best chosen"
 
@@ -55,7 +76,7 @@ def test_one_face_is_best_by_definition(evolving):
 def test_mark_that_the_person_set_stays(evolving):
     evolving.choose(1, best=1).choose(2, 3)
     assert evolving.status() == "Selected 3 · best chosen"
-    evolving.page.wait_for_timeout(320)
+    apart(evolving.page)
     evolving.choose(1)
     assert evolving.status() == "Selected 2 · mark taken back"
 
@@ -65,7 +86,7 @@ def test_double_click_selects_and_marks(evolving):
     evolving.tile(5).locator(".face").dblclick()
     assert evolving.status() == "Selected 2 · best chosen"
     assert evolving.tile(5).locator(".best").is_checked()
-    evolving.page.wait_for_timeout(320)
+    apart(evolving.page)
     evolving.tile(1).locator(".face").dblclick()
     assert evolving.status() == "Selected 2 · best chosen"
     assert evolving.tile(1).locator(".best").is_checked()
@@ -189,10 +210,3 @@ def test_holding_a_finger_enlarges_and_does_not_select(stage, phone):
     assert page.locator("#enlarged[open]").count() == 1
     page.locator("#enlarged-close").tap()
     assert page.locator(".select:checked").count() == 0
-
-
-def test_no_request_leaves_this_server(stage, player):
-    hosts = set()
-    player.page.on("request", lambda request: hosts.add(request.url.split("/")[2]))
-    player.begin(stage.link("small"))
-    assert hosts == {stage.address.split("/")[2]}

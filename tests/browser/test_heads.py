@@ -7,7 +7,7 @@ import re
 
 import pytest
 
-from tests.browser.screenshots import ACCOUNT
+from tests.browser.desk import ACCOUNT
 from tests.browser.stage import running
 from tests.browser.test_accessibility import must_be_accessible
 

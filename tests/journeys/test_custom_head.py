@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import json
 
 import numpy as np
 import pytest
@@ -14,9 +13,10 @@ from emogen_core.face.appearance import Appearance
 from emogen_core.face.space_file import load_bundled_space
 from server.app import create_app
 from server.services.config import parse_config
-from server.services.drawing import open_house
+from server.services.opening import open_house
 from server.settings import Settings
 from tests.browser.stage import drawing
+from tests.server.exported import lines
 from tests.server.walker import Walker
 
 HEAD = {
@@ -65,7 +65,7 @@ def test_the_record_names_the_head_and_the_configuration_holds_it(settings, made
     (document,) = version["config"]["identities"]
     name = f"custom-{document['hash'][:12]}"
     for table, column in (("participations", "condition"), ("trials", "identity"), ("faces", "identity")):
-        rows = [json.loads(line) for line in house.exports.stream(study.id, table, "jsonl")]
+        rows = lines(house, study.id, table)
         assert {row[column] for row in rows} == {name}
         assert {row["config_hash"] for row in rows} == {version["config_hash"]}
     assert document["space"] == load_bundled_space().hash

@@ -4,8 +4,9 @@ import uuid
 
 import pytest
 
+from tests.conftest import small_study
 from tests.server.dump import dump
-from tests.server.walker import Walker
+from tests.server.walker import Walker, respond
 
 
 def check_problem(reply, status, code):
@@ -45,8 +46,6 @@ def test_a_face_of_the_generation_before_is_unknown(walker, house):
 
 
 def test_too_many_and_too_few(client, house):
-    from tests.conftest import small_study
-
     study = house.studies.create(small_study(minimum=2, maximum=3))
     walker = Walker(client, study.links[0])
     state = walker.step(walker.start())
@@ -167,12 +166,10 @@ def test_unknown_study_and_bad_token(client, house, study):
 
 
 def test_a_closed_study_takes_nobody(client, house):
-    from tests.conftest import small_study
-
     study = house.studies.create(small_study(), status="paused")
     before = dump(house.database)
     reply = client.post(f"/s/{study.links[0]}", headers={"accept": "application/json"})
-    check_problem(reply, 409, "conflict")
+    check_problem(reply, 409, "closed")
     assert dump(house.database) == before
 
 
@@ -202,6 +199,8 @@ def test_nul_is_refused_everywhere(walker, house):
     before = dump(house.database)
     client = walker.client
     check_problem(client.get("/s/%00"), 400, "bad_request")
+    check_problem(client.get("/s/nowhere?PROLIFIC_PID=a%00"), 400, "bad_request")
+    assert client.get("/admin/find?q=a%00b").status_code == 400
     assert client.post("/s/nowhere", content=b"PROLIFIC_PID=%00").status_code == 422
     body = walker.body(walker.begun)
     body["client"]["input"] = "\0"
@@ -213,3 +212,15 @@ def test_unknown_addresses_and_methods(client):
     check_problem(client.get("/nowhere"), 404, "not_found")
     check_problem(client.get("/static/nowhere.css"), 404, "not_found")
     check_problem(client.delete("/health/live"), 405, "method_not_allowed")
+
+
+def test_nul_in_a_written_answer(client, house):
+    item = {"name": "why", "kind": "text", "text": "Why?"}
+    about = {"kind": "questionnaire", "name": "about", "items": [item]}
+    study = house.studies.create(small_study(blocks=[about], practice=None))
+    walker = Walker(client, study.links[0])
+    state = walker.start()
+    before = dump(house.database)
+    check_problem(walker.post({"id": str(uuid.uuid4()), **respond(state["item"], why="a\0b")}), 422, "invalid")
+    assert dump(house.database) == before
+    assert walker.answer(**respond(state["item"], why="a\tb\nc"))["step"] == "debrief"

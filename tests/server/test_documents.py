@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from server.services.columns import TABLES, markdown
+from server.services.reports.tables.columns import TABLES
 from server.settings import Settings
 from tests.server.routes import all_routes
 
@@ -21,15 +21,12 @@ def test_every_setting_is_documented_with_its_default():
     assert list(sections) == ["EMOGEN_TOKEN"]
 
 
-def test_every_column_of_the_export_is_documented():
-    assert markdown() in (DOCS / "export.md").read_text()
-
-
 def test_columns_are_declared_completely_and_once():
-    for columns in TABLES.values():
-        names = [column.name for column in columns]
+    for table in TABLES.values():
+        names = [column.name for column in table.columns]
         assert len(set(names)) == len(names)
-        assert all(column.help.endswith(".") and column.type for column in columns)
+        assert {*table.key} <= {*names}
+        assert all(column.help.endswith(".") and column.type for column in table.columns)
 
 
 def test_every_route_of_the_participant_is_documented():
@@ -42,3 +39,17 @@ def test_every_route_of_the_participant_is_documented():
 def test_every_route_of_the_analyst_is_documented():
     text = (DOCS / "export.md").read_text()
     assert [path for _, path in all_routes() if path.startswith("/api/") and path not in text] == []
+
+
+def test_every_card_of_the_monitor_is_explained():
+    text = (DOCS / "monitor.md").read_text().lower()
+    pieces = Path(DOCS).parent / "templates" / "admin" / "study" / "monitor"
+    figures = re.findall(r"<dt>(.*?)</dt>", (pieces / "figures.html").read_text())
+    charts = (
+        "Arrivals and completions",
+        "Still taking part",
+        "Wait until all ten faces are shown",
+        "Time a generation",
+    )
+    assert len(figures) == 5
+    assert [name for name in (*figures, *charts, "Places", "Simulated participants") if name.lower() not in text] == []

@@ -3,6 +3,7 @@
 import asyncio
 import json
 import logging
+import re
 
 import pytest
 from starlette.testclient import TestClient
@@ -11,10 +12,11 @@ from server.app import create_app
 from server.logs import JsonLines
 from server.routes.guard import public_path
 from server.settings import Settings
+from tests.server.walker import Walker
 
 
 def test_security_headers_on_every_kind_of_answer(client, study):
-    for path in ("/health/live", "/nowhere", f"/s/{study.links[0]}", "/static/admin.css", "/admin/login"):
+    for path in ("/health/live", "/nowhere", f"/s/{study.links[0]}", "/static/admin/page.css", "/admin/login"):
         headers = client.get(path).headers
         policy = headers["content-security-policy"]
         assert "'unsafe" not in policy
@@ -26,9 +28,9 @@ def test_security_headers_on_every_kind_of_answer(client, study):
 
 
 def test_only_static_files_and_portraits_are_kept(client):
-    style = client.get("/static/admin.css")
+    style = client.get("/static/admin/page.css")
     assert style.headers["cache-control"] == "no-cache"
-    assert client.get("/static/admin.css", headers={"if-none-match": style.headers["etag"]}).status_code == 304
+    assert client.get("/static/admin/page.css", headers={"if-none-match": style.headers["etag"]}).status_code == 304
     assert client.get("/admin/login").headers["cache-control"] == "no-store"
 
 
@@ -92,7 +94,41 @@ def test_tokens_are_not_logged(client, study, caplog):
     assert ours
     assert "a-secret-token" not in "".join(map(JsonLines().format, ours))
     assert public_path("/p/token/answers") == "/p/…/answers"
+    assert public_path("/s/personal") == "/s/…"
     assert public_path("/portraits/k.png") == "/portraits/k.png"
+
+
+def test_no_credential_is_in_a_log_line(client, house, study, caplog, monkeypatch):
+    """Whatever goes wrong: addresses, cookies, keys, passwords and codes of people stay out of the log."""
+    caplog.set_level(logging.DEBUG)
+    password, wrong = "four unrelated quiet words", "a guess of somebody's"
+    setup = house.accounts.new_setup_key()
+    form = {"key": setup, "name": "Ines", "email": "ines@example.org", "password": password}
+    form["csrf"] = re.search(r'name="csrf" value="([^"]+)"', client.get("/admin/setup", params={"key": setup}).text)[1]
+    client.post("/admin/setup", data=form)
+    visit = client.get("/admin/login").text
+    sign_in = {"csrf": re.search(r'name="csrf" value="([^"]+)"', visit)[1], "email": "ines@example.org"}
+    client.post("/admin/login", data=sign_in | {"password": wrong})
+    client.post("/admin/login", data=sign_in | {"password": password})
+    invitation = house.people.invite("bo@example.org", "analyst", house.people.all()[0].id)
+    client.get("/admin/invitation", params={"key": invitation})
+    token = house.tokens.create("export", ["export"])
+    client.get(f"/api/v1/studies/{study.id}/dictionary", headers={"Authorization": f"Bearer {token}"})
+    walker = Walker(client, study.links[0], PROLIFIC_PID="5f3c9a77")
+    walker.finish()
+    withdrawal = walker.state()["completion"]["withdrawal_code"]
+    place = house.joining.entry(study.links[0]).place
+    client.post(f"/s/{study.links[0]}", content=f"place={place}")
+    monkeypatch.setattr(type(house.participations), "view", lambda *_: 1 / 0)
+    assert client.get(walker.address).status_code == 500
+    cookies = [cookie.value for cookie in client.cookies.jar]
+    assert len(cookies) >= 3
+
+    ours = [record for record in caplog.records if not record.name.startswith(("httpx2", "httpcore"))]
+    said = "".join(map(JsonLines().format, ours))
+    assert "ZeroDivisionError" in said
+    secrets = [setup, password, wrong, invitation, token, walker.token, study.links[0], "5f3c9a77", withdrawal, place]
+    assert [secret for secret in (*secrets, *cookies) if secret in said] == []
 
 
 def test_log_lines_are_json():

@@ -1,6 +1,6 @@
 """After the face model was exchanged, who was in the middle is told so instead of being sent in circles."""
 
-from server.services.joining import register_rig
+from server.services.participation.seating import register_rig
 from server.store.runs_tables import Participation
 from server.store.studies_tables import RigRecord
 from tests.server.walker import Walker

@@ -5,6 +5,17 @@ from __future__ import annotations
 import uuid
 
 
+def respond(item, **said):
+    """An acceptable response to an item; `said` names other values."""
+    values = {}
+    for field in item["questions"]:
+        values[field["name"]] = {
+            "single": lambda f: f["options"][0], "multiple": lambda f: f["options"][:1], "scale": lambda f: 4,
+            "number": lambda f: f["least"] or 0, "text": lambda f: "words",
+        }[field["kind"]](field)  # fmt: skip
+    return {"kind": "response", "trial": item["trial"], "item": item["item"], "values": values | said}
+
+
 class Walker:
     def __init__(self, client, link, **parameters):
         self.client = client
@@ -52,8 +63,8 @@ class Walker:
         match state["step"]:
             case "consent":
                 return self.answer("consent", given=True)
-            case "instructions":
-                return self.answer("instructions")
+            case "calibration" | "instructions" as step:
+                return self.answer(step)
             case "practice" | "evolve":
                 reply = self.post(self.body(state, count))
                 assert reply.status_code == 200, reply.text
@@ -61,7 +72,8 @@ class Walker:
             case "rating":
                 rating = state["rating"]
                 return self.answer("rating", trial=rating["trial"], values=dict.fromkeys(rating["questions"], 4))
-        raise AssertionError(state["step"])
+            case _:
+                return self.answer(**respond(state["item"]))
 
     def finish(self, steps=None):
         state = self.state()

@@ -45,7 +45,11 @@ class Server:
             raise
         self.said = said
         self.base, self.link = re.search(r"(http://[^/]+)/s/(\S+)", said).groups()
-        self.client = httpx2.Client(base_url=self.base, timeout=60)
+        self.client = httpx2.Client(
+            base_url=self.base,
+            timeout=60,
+            transport=httpx2.HTTPTransport(retries=6),  # it listens soon after it greets
+        )
 
     def __enter__(self):
         return self

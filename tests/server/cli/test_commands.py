@@ -2,9 +2,12 @@
 
 import csv
 import json
+import zipfile
 
 import pytest
 
+from emogen_client import Export
+from tests.psych_ds.check import problems
 from tests.server.cli.running import emogen
 
 
@@ -31,6 +34,33 @@ def test_the_same_seed_gives_the_same_results(simulated, tmp_path):
     assert json.loads(again.stdout)["trials"] == simulated["trials"]
 
 
+def test_participants_who_err_end_further_away(simulated, tmp_path):
+    errs = ("--noise", "0.3", "--lapse", "0.2", "--drift", "0.02", "--left", "0.1")
+    done = emogen(tmp_path / "var", "simulate", "--participants", "2", "--seed", "5", *errs, "--json")
+    assert json.loads(done.stdout)["mean_final_cosine_distance"] > simulated["mean_final_cosine_distance"] + 0.1
+    refused = emogen(tmp_path / "var", "simulate", "--lapse", "2")
+    assert refused.returncode == 2
+    assert "lapse" in refused.stderr
+
+
+@pytest.mark.parametrize(
+    ("url", "why"),
+    [("http://127.0.0.1:1", "All connection attempts failed"), ("nonsense", "missing an 'http://'")],
+)
+def test_a_server_that_does_not_answer_is_one_sentence(data_dir, url, why):
+    done = emogen(data_dir, "simulate", "--url", url, "--link", "x", "--token", "y")
+    assert done.returncode == 1
+    assert done.stderr.startswith("--url: expected a running Emogen server, got ")
+    assert why in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+def test_a_seed_below_zero_is_refused(data_dir):
+    done = emogen(data_dir, "simulate", "--seed", "-1")
+    assert done.returncode == 2
+    assert "--seed" in done.stderr
+
+
 def test_export_writes_every_table_and_marks_the_simulated(simulated, data_dir, tmp_path):
     done = emogen(data_dir, "export", "--study", "demo", "--out", str(tmp_path / "out"))
     assert done.returncode == 0, done.stderr
@@ -39,7 +69,30 @@ def test_export_writes_every_table_and_marks_the_simulated(simulated, data_dir, 
     assert len(rows) == 2 * (1 + 4 * 11) * 10
     assert {row["simulated"] for row in rows} == {"true"}
     dictionary = json.loads((tmp_path / "out" / "dictionary.json").read_text())
-    assert list(rows[0]) == [column["name"] for column in dictionary["faces"]]
+    assert list(rows[0]) == [column["name"] for column in dictionary["faces"]["columns"]]
+
+
+def test_export_writes_every_format_as_a_folder_or_a_zip(simulated, data_dir, tmp_path):
+    for form in ("jsonl", "parquet", "psych-ds"):
+        done = emogen(data_dir, "export", "--format", form, "--out", str(tmp_path / f"{form}.zip"))
+        assert (done.returncode, done.stdout) == (0, f"{tmp_path / form}.zip\n"), done.stderr
+        Export(tmp_path / f"{form}.zip").verify()
+    done = emogen(data_dir, "export", "--format", "parquet", "--kind", "people", "--out", str(tmp_path / "people"))
+    folder = Export(tmp_path / "people")
+    assert done.stdout.splitlines()[-1] == str(tmp_path / "people" / "manifest.json")
+    assert (folder.manifest["filters"], len(folder.table("faces"))) == ({"kind": "people"}, 0)
+    assert problems_of(tmp_path) == []
+    news = emogen(data_dir, "export", "--kind", "people", "--since", folder.cursor, "--out", str(tmp_path / "news"))
+    assert news.returncode == 0, news.stderr
+    wrong = emogen(data_dir, "export", "--since", folder.cursor, "--out", str(tmp_path / "wrong"))
+    assert (wrong.returncode, wrong.stderr.count("\n")) == (1, 1)
+    assert not (tmp_path / "wrong").exists()
+
+
+def problems_of(folder):
+    with zipfile.ZipFile(folder / "psych-ds.zip") as file:
+        file.extractall(folder / "psych")
+    return problems(folder / "psych")
 
 
 def test_an_unknown_study_is_one_sentence(data_dir, tmp_path):

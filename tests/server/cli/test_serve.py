@@ -2,10 +2,11 @@
 
 import json
 import re
+import time
 
 import pytest
 
-from server.services.tokens import Tokens
+from server.services.people.tokens import Tokens
 from server.store.engine import Database
 from tests.server.cli.running import Server, emogen
 from tests.server.walker import Walker
@@ -78,3 +79,20 @@ def test_simulated_participants_visit_a_running_server(data_dir):
         refused = emogen(data_dir, "simulate", *there, "--token", "emg_guess")
         assert refused.returncode == 1
         assert "401" in refused.stderr
+
+
+def test_open_streams_do_not_hold_up_the_end(data_dir):
+    with Server(data_dir) as server:
+        address, key = server.base, re.search(r"/admin/setup\?key=([0-9A-Z-]+)", server.said)[1]
+        form = {"key": key, "name": "Ines", "email": "i@example.org", "password": "four unrelated quiet words"}
+        form["csrf"] = re.search(r'name="csrf" value="([^"]+)"', server.client.get("/admin/setup").text)[1]
+        assert server.client.post("/admin/setup", data=form).status_code == 303
+        with server.client.stream("GET", f"{address}/admin/studies/demo/monitor/stream") as reply:
+            assert reply.headers["content-type"].startswith("text/event-stream")
+            lines = reply.iter_lines()
+            assert next(line for line in lines if line.startswith("data: "))
+            begun = time.monotonic()
+            server.process.terminate()
+            assert not [line for line in lines if line.startswith("event: end")], "it ends by itself"
+        server.process.wait(30)
+        assert time.monotonic() - begun < 8, "without waiting for the ten seconds after which all is cut off"

@@ -61,6 +61,27 @@ def test_a_block_that_raises_leaves_nothing(database):
 
 
 @BOTH
+def test_a_read_sees_one_moment_whatever_is_written_meanwhile(database):
+    with database.read() as tx:
+        assert tx.scalars(select(AuditEntry.id)).all() == []
+        with database.write() as other:
+            runs.add(other, entry(1))
+        assert tx.scalars(select(AuditEntry.id)).all() == []
+    with database.read() as tx:
+        assert tx.scalars(select(AuditEntry.id)).all() == ["1"]
+
+
+@pytest.mark.parametrize("backend", ["postgresql"])
+def test_a_read_locks_and_writes_nothing(database):
+    for refused in (lambda tx: tx.scalars(select(Study).with_for_update()), lambda tx: runs.add(tx, entry(1))):
+        with pytest.raises(exc.InternalError, match="read-only transaction"), database.read() as tx:
+            refused(tx)
+    with database.write() as tx:
+        runs.add(tx, entry(1))
+        assert tx.scalars(select(AuditEntry.id).with_for_update()).all() == ["1"]
+
+
+@BOTH
 def test_references_are_enforced(database):
     stray = Trial(
         id="t", participation_id="nobody", position=0, kind="evolve", practice=False, emotion="happy",

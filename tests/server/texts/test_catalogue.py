@@ -2,12 +2,14 @@
 
 import json
 import re
+from types import SimpleNamespace
 
 import pytest
 from markupsafe import Markup
 
 from server.assets import asset
-from server.texts.catalogue import Catalogue, languages, load_catalogue
+from server.texts.catalogue import languages, load_catalogue
+from server.texts.pages import Pages
 from server.texts.views import choice_missing, page_values, template_of
 
 WORDS = asset("templates") / "words"
@@ -22,20 +24,6 @@ def test_values_are_escaped_and_markup_is_kept():
 @pytest.mark.parametrize(("count", "sentence"), [(1, "About 1 minute"), (25, "About 25 minutes")])
 def test_plural(count, sentence):
     assert ENGLISH.say("consent.minutes", count=count) == sentence
-
-
-def test_arabic_plural_forms_and_digits():
-    words = {"language": {"code": "ar", "direction": "rtl", "digits": "٠١٢٣٤٥٦٧٨٩"}}
-    words["faces"] = {
-        "one": "one",
-        "two": "two",
-        "few": "few {count}",
-        "many": "many {count}",
-        "other": "other {count}",
-    }
-    arabic = Catalogue(words)
-    told = [str(arabic.say("faces", count=count)) for count in (1, 2, 3, 11, 100)]
-    assert told == ["one", "two", "few ٣", "many ١١", "other ١٠٠"]
 
 
 def test_language_without_catalogue_is_english():
@@ -102,3 +90,46 @@ def test_practice_wears_the_evolve_page():
 def test_modules_are_small_and_named():
     for path in (asset("static") / "participant").glob("*.js"):
         assert len(path.read_text(encoding="utf-8").splitlines()) <= 250, path.name
+
+
+def test_sentences_whose_names_are_put_together_are_there():
+    records = ("choices", "ratings", "questions", "screen", "size", "browser", "recruiter")
+    kinds = ("evolve", "again", "rate", "categorise", "questionnaire")
+    standings = ("full", "draft", "paused", "closed", "link_closed")
+    names = [f"consent.recorded_{name}" for name in records] + [f"instructions.parts.{kind}" for kind in kinds]
+    names += [f"errors.{standing}{part}" for standing in standings for part in ("", "_text")]
+    names += [f"entry.refused.{reason}" for reason in ("phone", "small")]
+    names += [f"ended.{outcome}_text" for outcome in ("declined", "screened_out", "failed_checks", "erased", "over")]
+    for name in names:
+        assert ENGLISH.entry(name), name
+
+
+def test_a_region_has_the_words_of_its_language(tmp_path):
+    (tmp_path / "en.json").write_text(json.dumps({"language": {"code": "en"}}))
+    (tmp_path / "de.json").write_text(json.dumps({"language": {"code": "de"}}))
+    assert [load_catalogue(tmp_path, code).code for code in ("de-AT", "de", "fr-CA")] == ["de", "de", "en"]
+
+
+def test_a_study_s_own_nouns_come_first():
+    words = ENGLISH.with_nouns({"angry": "rage", "wistful": "wistfulness"})
+    assert [words.noun(one, one) for one in ("angry", "wistful", "sad")] == ["rage", "wistfulness", "sadness"]
+    assert ENGLISH.noun("angry", "") == "anger"
+
+
+def test_a_studys_own_text_is_isolated_where_the_page_runs_the_other_way():
+    assert load_catalogue(WORDS, "ar").isolated("£4.20 via Prolific") == "\u2068£4.20 via Prolific\u2069"
+    assert load_catalogue(WORDS, "ar").isolated("") == ""
+    assert ENGLISH.isolated("نعم") == "نعم"
+
+
+def test_a_page_isolates_what_the_study_says_about_itself():
+    study = {
+        "title": "Faces",
+        "contact": "us@example.org",
+        "needs": {"phones": True, "large": False, "width": 320, "height": 460},
+    }
+    pages, entry = Pages(asset("templates")), SimpleNamespace(standing="open", language="ar", anew=False)
+    nothing = {"refused": None, "busy": None, "languages": [], "kept": {}}
+    page = pages.render("entry.html", pages.catalogue("ar"), study=study, entry=entry, action="/s/x", **nothing)
+    assert "<h1>\u2068Faces\u2069</h1>" in page
+    assert 'href="mailto:us@example.org"' in page

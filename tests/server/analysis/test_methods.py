@@ -1,0 +1,95 @@
+"""The text for a paper: numbers, what cannot be said, and exactly the works that it cites."""
+
+import json
+import math
+import re
+
+import numpy as np
+import pytest
+
+from server.analysis.files import comma_separated, plain
+from server.analysis.methods import REFERENCES, methods
+from server.analysis.sections import sections
+from tests.server.analysis.made import FACTS, context, made, template
+from tests.server.analysis.test_people import MINDS, judged
+
+CITED = re.compile(r"\(([A-Z][^()]*?, \d{4})[;)]")
+
+
+def whole(people):
+    """Two emotions on two heads in two conditions, made twice, rated and named."""
+    parts = []
+    for condition in ("alone", "together"):
+        for at, emotion in enumerate(("happy", "angry")):
+            for head in ("female", "male"):
+                for repetition in (0, 1):
+                    parts.append(
+                        made(
+                            template(at), people, seed=len(parts), name=condition, emotion=emotion, identity=head,
+                            condition=condition, repetition=repetition,
+                            ratings={"intensity": np.arange(people, dtype=float) % 7},
+                        )
+                    )  # fmt: skip
+    return context(*parts, judgements=judged(made(MINDS[:people], people, name="alone"), knows=True))
+
+
+@pytest.fixture(scope="module", params=[2, 12])
+def analysis(request):
+    told = whole(request.param)
+    return told, sections(told)
+
+
+def test_every_part_is_there_and_says_something_for_a_paper(analysis):
+    _, parts = analysis
+    assert [part.name for part in parts] == [
+        "means", "within", "proxy", "convergence", "between", "conditions", "genes", "differences", "map", "kinds",
+        "nearest", "retest", "match", "heads", "process",
+    ]  # fmt: skip
+    silent = {part.name for part in parts if not part.methods}
+    assert silent <= {"map", "nearest", "differences"}
+
+
+def test_no_gap_is_written_as_a_number_or_a_name(analysis):
+    told, parts = analysis
+    text = "\n".join(methods(told, parts, FACTS))
+    tables = "\n".join(comma_separated(sheet) for part in parts for sheet in (part.sheet, *part.files))
+    words = [text, tables, *(one for part in parts for one in (*part.lacks, *part.notes, part.says))]
+    assert not [one for one in words if re.search(r"\b(None|nan|inf|NaN)\b", one)]
+    json.dumps(plain(parts, FACTS), allow_nan=False)
+    numbers = [value for part in parts for row in part.sheet.rows for value in row if isinstance(value, float)]
+    assert all(map(math.isfinite, numbers))
+
+
+def test_what_cites_is_in_the_list_and_the_list_has_nothing_else(analysis):
+    told, parts = analysis
+    text = methods(told, parts, FACTS)
+    works = [one for one in text if one in REFERENCES.values()]
+    cited = {words for one in text if one not in works for words in REFERENCES if words in one}
+    assert {REFERENCES[words] for words in cited} == set(works)
+    assert text[-len(works) :] == works == sorted(works)
+    plain_text = " ".join(one for one in text if one not in works)
+    named = {word.split("; ")[-1] for word in CITED.findall(plain_text)}
+    assert named <= set(REFERENCES), named - set(REFERENCES)
+
+
+def test_a_report_without_conditions_does_not_cite_their_tests():
+    told = context(made(template(1), 6))
+    works = " ".join(one for one in methods(told, sections(told), FACTS) if one in REFERENCES.values())
+    assert "EmoGen" in works
+    for author in ("Anderson", "Benjamini", "Phipson", "Finn", "Mancl", "Kass"):
+        assert author not in works
+
+
+def test_with_two_people_a_cell_no_test_is_reported():
+    told = whole(2)
+    text = " ".join(methods(told, sections(told), FACTS)[:-9])
+    assert not re.search(r"\b[pq] [=<]", text)
+    assert "could be made: too few people, or too few who differ" in text
+
+
+def test_of_several_searches_it_is_said_which_condition_had_which():
+    parts = [made(template(1), 5, name=name, condition=name) for name in ("alone", "together")]
+    one, two = context(*parts), context(*parts, searches=["a", "b"])
+    assert "With 3 generations" in methods(one, sections(one), FACTS)[1]
+    text = methods(two, sections(two), FACTS)[1]
+    assert "In the condition alone, with 3" in text and "In the condition together, with 3" in text

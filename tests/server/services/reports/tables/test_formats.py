@@ -1,0 +1,73 @@
+"""Every writer writes the values it is given: numbers bit for bit, texts letter for letter, nothing as nothing."""
+
+import csv
+import io
+import json
+from datetime import UTC, datetime
+
+import numpy as np
+import pyarrow as pa
+import pytest
+
+from server.services.reports.tables.formats import writer
+from server.services.spreadsheet import guarded
+
+MOMENT = datetime(2026, 3, 22, 14, 7, 31, 250000, tzinfo=UTC)
+COLUMNS = {
+    "text": pa.array(['say "so"', "a,b}\n{", "Ärger", "", None], pa.string()),
+    "double": pa.array([0.1, -0.0, 1e-300, 12.0, None], pa.float64()),
+    "whole": pa.array([2**53 + 1, -1, 0, 7, None], pa.int64()),
+    "single": pa.array([0.1, 0.0, 1.0, 1e-30, None], pa.float32()),
+    "truth": pa.array([True, False, True, False, None], pa.bool_()),
+    "moment": pa.array([MOMENT] * 4 + [None], pa.timestamp("ms", "UTC")),
+    "list": pa.array(["[1, 2]", '["a,"]', "{}", "3", None], pa.string()),
+}
+
+
+def batch_of(*names):
+    fields = [pa.field(name, COLUMNS[name].type, metadata={"type": "json"} if name == "list" else {}) for name in names]
+    return pa.record_batch([COLUMNS[name] for name in names], schema=pa.schema(fields))
+
+
+def as_json(name, value):
+    if name == "list":
+        return None if value is None else json.loads(value)
+    return value.isoformat(timespec="milliseconds") if isinstance(value, datetime) else value
+
+
+@pytest.mark.parametrize("first", range(len(COLUMNS)))
+def test_json_lines_say_every_value_wherever_its_column_stands(first):
+    names = [*COLUMNS][first:] + [*COLUMNS][:first]
+    batch = batch_of(*names)
+    body = writer("jsonl", batch.schema).rows(batch.slice(1, 4)).decode()
+    expected = [{name: as_json(name, row[name]) for name in names} for row in batch.to_pylist()[1:]]
+    assert [json.loads(line) for line in body.splitlines()] == expected
+    assert body.endswith("}\n")
+
+
+@pytest.mark.parametrize("names", [["text"], ["double"], ["double", "single"], ["text", "whole"]])
+def test_json_lines_need_no_company(names):
+    batch = batch_of(*names)
+    body = writer("jsonl", batch.schema).rows(batch).decode()
+    assert [json.loads(line) for line in body.splitlines()] == batch.to_pylist()
+
+
+def test_what_is_guarded_in_a_table_is_what_the_guard_guards():
+    risky = ["=1+1", "+1", "-1", "@x", "\t=1", "\r=1", "\n1", "a=1", "", None, "'=1"]
+    told = writer("csv", pa.schema([("cell", pa.string())]))
+    body = told.rows(pa.record_batch([pa.array(risky)], names=["cell"])).decode()
+    cells = [row[0] if row else "" for row in csv.reader(io.StringIO(body, newline=""))]
+    assert cells == [guarded(one) if one else "" for one in risky]
+
+
+def test_numbers_read_back_bit_for_bit():
+    random = np.random.default_rng(7)
+    doubles = np.concatenate([random.random(2000), 10.0 ** random.uniform(-300, 300, 500), [0.0, -0.0, 1.0]])
+    singles = doubles[:2000].astype(np.float32)
+    batch = pa.record_batch([pa.array(doubles[:2000]), pa.array(singles)], names=["double", "single"])
+    schema = batch.schema
+    plain = csv.reader(io.StringIO(writer("csv", schema).rows(batch).decode()))
+    rich = map(json.loads, writer("jsonl", schema).rows(batch).splitlines())
+    for (one, two), row, double, single in zip(plain, rich, doubles, singles, strict=False):
+        assert float(one).hex() == float(row["double"]).hex() == float(double).hex()
+        assert float(two).hex() == float(row["single"]).hex() == float(single).hex()
