@@ -160,7 +160,7 @@ def test_a_folder_that_cannot_be_written_to_is_one_sentence(simulated, renderer,
     def full(*_, **__):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(Path, "write_text", full)
+    monkeypatch.setattr(Path, "write_bytes", full)
     said = run("--seed", 2, "--out", tmp_path / "report", code=1).stderr
     assert "--out: expected a folder to write to" in said.splitlines()[-1]
     assert "No space left on device" in said.splitlines()[-1]

@@ -63,16 +63,16 @@ def test_files_of_tables_that_are_no_more_go_and_others_stay(tmp_path):
 @pytest.mark.parametrize("last", range(5))
 def test_a_failing_write_leaves_the_earlier_report_whole(tmp_path, monkeypatch, last):
     write([noise(), settings()], FACTS, tmp_path)
-    before, write_text, done = contents(tmp_path), Path.write_text, []
+    before, write_bytes, done = contents(tmp_path), Path.write_bytes, []
 
-    def full(path, text, **more):
+    def full(path, content):
         if len(done) == last:
-            write_text(path, text[:10], **more)
+            write_bytes(path, content[:10])
             raise OSError(28, "No space left on device")
         done.append(path)
-        return write_text(path, text, **more)
+        return write_bytes(path, content)
 
-    monkeypatch.setattr(Path, "write_text", full)
+    monkeypatch.setattr(Path, "write_bytes", full)
     with pytest.raises(OSError, match="No space left"):
         write([noise(seed=9), settings(), threshold()], FACTS, tmp_path, known=["noise", "settings"])
     assert contents(tmp_path) == before
