@@ -6,8 +6,10 @@
 >>> Export("demo-parquet.zip").table("faces")
 """
 
-from .errors import EmogenClientError, FramesMissingError, IncompleteError, RefusedError
+from .errors import EmogenClientError, FramesMissingError, IncompleteError, RefusedError, UnreadableError
 from .export import Export
 from .study import Study
 
-__all__ = ["EmogenClientError", "Export", "FramesMissingError", "IncompleteError", "RefusedError", "Study"]
+__all__ = [
+    "EmogenClientError", "Export", "FramesMissingError", "IncompleteError", "RefusedError", "Study", "UnreadableError",
+]  # fmt: skip

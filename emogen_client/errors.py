@@ -24,6 +24,14 @@ class IncompleteError(EmogenClientError):
         self.what = what
 
 
+class UnreadableError(EmogenClientError):
+    """A file is what was sent, but not what its name and the data dictionary say that it is."""
+
+    def __init__(self, what: str, why: str) -> None:
+        super().__init__(f"{what}: expected what the data dictionary says, got something unreadable: {why}")
+        self.what = what
+
+
 class FramesMissingError(EmogenClientError):
     """The library that makes the frames that were asked for is not installed."""
 

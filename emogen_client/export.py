@@ -9,25 +9,17 @@ import zipfile
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, cast
 
-import pyarrow as pa
-from pyarrow import csv, parquet
-
-from .errors import EmogenClientError, IncompleteError
+from .errors import EmogenClientError, IncompleteError, UnreadableError
 from .frames import Frames, framed
+from .parsing import parsed
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
     from os import PathLike
 
+    import pyarrow as pa
+
 MANIFEST = "manifest.json"
-TYPES = {
-    "text": pa.string(),
-    "json": pa.string(),
-    "integer": pa.int64(),
-    "number": pa.float64(),
-    "boolean": pa.bool_(),
-    "time": pa.timestamp("ms", "UTC"),
-}
 
 
 class Export:
@@ -41,9 +33,9 @@ class Export:
         self.path = Path(path)
         try:
             self.manifest: dict[str, Any] = json.loads(self._bytes(MANIFEST))
-        except (OSError, KeyError, zipfile.BadZipFile) as error:
+            self._files: dict[str, Mapping[str, Any]] = {file["path"]: file for file in self.manifest["files"]}
+        except (OSError, ValueError, LookupError, TypeError, zipfile.BadZipFile) as error:
             raise IncompleteError(str(self.path), f"an export with a {MANIFEST}", "none") from error
-        self._files: dict[str, Mapping[str, Any]] = {file["path"]: file for file in self.manifest["files"]}
 
     @property
     def tables(self) -> tuple[str, ...]:
@@ -69,6 +61,7 @@ class Export:
 
         Raises:
             IncompleteError: the file is missing or another one than was sent.
+            UnreadableError: it is not a table as the dictionary tells of.
             FramesMissingError: the library of the frames is not installed.
         """
         return framed(self.arrow(name), frames)
@@ -78,22 +71,20 @@ class Export:
 
         Raises:
             IncompleteError: the file is missing or another one than was sent.
+            UnreadableError: it is not a table as the dictionary tells of.
         """
         path = next((path for path, file in self._files.items() if file.get("table") == name), None)
         if path is None:
             raise EmogenClientError(f"There is no such table: expected one of {', '.join(self.tables)}, got {name!r}.")
-        data, form = self.read(path), path.rpartition(".")[2]
-        if form == "parquet":
-            return parquet.read_table(_native(data))
-        return self._text(name, data, form)
+        return parsed(path, self.read(path), self._told(path, name))
 
     def dictionary(self) -> dict[str, Any]:
         """Return what every table and column means."""
-        return cast("dict[str, Any]", json.loads(self.read(self._named("dictionary.json"))))
+        return cast("dict[str, Any]", self._json("dictionary.json"))
 
     def configurations(self) -> list[dict[str, Any]]:
         """Return every version of the study."""
-        return cast("list[dict[str, Any]]", json.loads(self.read(self._named("configurations.json"))))
+        return cast("list[dict[str, Any]]", self._json("configurations.json"))
 
     def read(self, path: str) -> bytes:
         """Return a file of the export.
@@ -111,23 +102,21 @@ class Export:
             raise IncompleteError(path, f"SHA-256 {told['sha256']}", found)
         return data
 
-    def _text(self, name: str, data: bytes, form: str) -> pa.Table:
-        """Read a text with the types that the dictionary says, not those that its first rows look like."""
-        types = {column["name"]: TYPES[column["type"]] for column in self.dictionary()[name]["columns"]}
-        if form == "csv":
-            options = csv.ConvertOptions(
-                column_types=types, strings_can_be_null=True, null_values=[""], quoted_strings_can_be_null=False
-            )
-            return csv.read_csv(_native(data), convert_options=options)
-        nested = {column["name"] for column in self.dictionary()[name]["columns"] if column["type"] == "json"}
-        rows = [json.loads(line) for line in data.splitlines()]
-        for row in rows:
-            row.update({key: json.dumps(row[key], ensure_ascii=False) for key in nested if row[key] is not None})
-        schema = pa.schema([(key, pa.string() if pa.types.is_timestamp(kind) else kind) for key, kind in types.items()])
-        return pa.Table.from_pylist(rows, schema).cast(pa.schema(list(types.items())))
+    def _told(self, path: str, name: str) -> Sequence[Mapping[str, Any]]:
+        """Return what the dictionary says of the columns of a table; Parquet says it itself."""
+        try:
+            return () if path.endswith(".parquet") else self.dictionary()[name]["columns"]
+        except (LookupError, TypeError) as error:
+            raise UnreadableError("dictionary.json", f"no columns of {name}") from error
 
-    def _named(self, name: str) -> str:
-        return next(path for path in self._files if path.rpartition("/")[2] == name)
+    def _json(self, name: str) -> Any:
+        path = next((path for path in self._files if path.rpartition("/")[2] == name), None)
+        if path is None:
+            raise IncompleteError(name, "such a file in the export", "none")
+        try:
+            return json.loads(self.read(path))
+        except ValueError as error:
+            raise UnreadableError(path, str(error)) from error
 
     def _bytes(self, path: str) -> bytes:
         with self._open(path) as file:
@@ -137,14 +126,3 @@ class Export:
         if self.path.is_dir():
             return (self.path / path).open("rb")
         return io.BytesIO(zipfile.ZipFile(self.path).read(path))
-
-
-def _native(data: bytes) -> pa.BufferReader:
-    """Return what Arrow reads from, in memory of its own.
-
-    Its threads may hold on to what they read from for longer than the call lasts. Were that a Python object, whoever
-    ends right after it would now and then crash: the interpreter is gone when they let go of it.
-    """
-    sink = pa.BufferOutputStream()
-    sink.write(data)
-    return pa.BufferReader(sink.getvalue())

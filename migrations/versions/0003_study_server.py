@@ -44,6 +44,7 @@ def upgrade() -> None:
             op.add_column(table, sa.Column(name, kind, nullable=value is None, server_default=value))
     # Until now the condition of a participation was its head, and a version was frozen as soon as it was there.
     op.execute("UPDATE participations SET head = condition")
+    op.execute("UPDATE trials SET block = 'practice' WHERE practice")
     op.execute("UPDATE study_versions SET frozen_at = created_at")
     _keep_places()
     _tables()

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 from threadpoolctl import threadpool_limits
 
-from emogen_client import EmogenClientError, Export
+from emogen_client import EmogenClientError
 from emogen_core.errors import RenderingError
 from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.rendering.pool import RenderPool
@@ -31,6 +31,7 @@ from ..services.faces.correction import Correction
 from ..services.faces.drawing import PoolDrawer
 from ..services.faces.tailor import HouseTailor
 from ..services.faces.wardrobe import Wardrobe
+from ..services.participation.sound_export import SoundExport
 from .common import made_folder, plainly, stop, unwritable
 from .threshold import Seed
 
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from emogen_client import Export
     from emogen_core.face.rig import Rig
 
     from ..analysis.reading import Recording
@@ -78,7 +80,7 @@ def analyse(  # noqa: PLR0913, PLR0917 - typer reads the options from the signat
 
 def _read(path: Path, rig: Rig, kinds: tuple[str, ...], *, flagged: bool) -> tuple[Export, Recording]:
     try:
-        kept = Export(path)
+        kept = SoundExport(path)
         return kept, read(kept, rig, kinds, flagged=flagged)
     except EmogenClientError as error:
         raise stop(str(error)) from error

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from emogen_client import EmogenClientError, Export
+from emogen_client import EmogenClientError
 from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.rendering.pool import RenderPool
 
@@ -20,10 +20,12 @@ from ..services.faces.tailor import HouseTailor
 from ..services.faces.wardrobe import Wardrobe
 from ..services.participation.replay.exported import ExportReplay
 from ..services.participation.replay.portraits import Album, Which
+from ..services.participation.replay.recorded import Replayed
+from ..services.participation.sound_export import SoundExport
 from .common import made_folder, plainly, stop, unwritable
 
 if TYPE_CHECKING:
-    from ..services.participation.replay.comparison import Difference, Replayed
+    from ..services.participation.replay.recorded import Difference
 
 From = Annotated[Path, typer.Argument(metavar="EXPORT", help="A folder or zip of emogen export or of the Data page.")]
 Portraits = Annotated[Path | None, typer.Option(help="Folder for the portraits, drawn again as PNG.")]
@@ -37,7 +39,7 @@ def replay(export: From, portraits: Portraits = None, faces: Faces = "finished",
     wardrobe = Wardrobe(rig, HouseTailor(rig))
     with plainly(), closing(wardrobe):
         try:
-            kept = Export(export)
+            kept = SoundExport(export)
             kept.verify()
             again = ExportReplay(kept, rig, wardrobe)
             found = _replayed(again)
@@ -73,6 +75,8 @@ def _draw(again: ExportReplay, folder: Path, which: Which) -> None:
 
 
 def _sentence(found: Replayed) -> str:
+    if found == Replayed(0, None):
+        return "There is nothing to replay: nobody in this export was shown a face."
     if found.difference is None:
         return f"Replayed bit for bit: {found.generations} generations."
     return f"After {found.generations} generations: {_told(found.difference)}"

@@ -21,7 +21,7 @@ def following(walk: Walk) -> Callable[[], list[Sketch]]:
     if step not in {"practice", "evolve"}:
         return list
     trial = walk.trial()
-    if trial.generation < last_generation(walk, trial):
+    if trial.generation < last_generation(walk.config, trial):
         return lambda: walk.evolution.ahead(trial)
     return _first(walk, position + 1)
 

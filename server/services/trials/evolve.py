@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from emogen_core.search import State
 
     from ...store.runs_tables import Face, Generation, Trial
+    from ..config import StudyConfig
     from .answer_bodies import AnswerBody
     from .base import Faces
     from .walk import Walk
@@ -67,9 +68,9 @@ class _Evolve:
 EVOLVE = _Evolve()
 
 
-def last_generation(walk: Walk, trial: Trial) -> int:
+def last_generation(config: StudyConfig, trial: Trial) -> int:
     """Return the generation whose best face ends the trial: the first one already when practising."""
-    return 0 if trial.practice else walk.config.generations
+    return 0 if trial.practice else config.generations
 
 
 def _offer(walk: Walk, trial: Trial, state: State) -> None:
@@ -84,7 +85,7 @@ def _offer(walk: Walk, trial: Trial, state: State) -> None:
 
 
 def _trial_state(walk: Walk, trial: Trial) -> dict[str, Any]:
-    last = last_generation(walk, trial)
+    last = last_generation(walk.config, trial)
     minimum, maximum = _bounds(walk, trial)
     return {
         "id": trial.id,
@@ -132,7 +133,7 @@ def _check_step(walk: Walk, trial: Trial, body: AnswerBody) -> None:
 
 def _bounds(walk: Walk, trial: Trial) -> tuple[int, int]:
     """Return the least and the most faces that may be chosen now; only the best matters in the last generation."""
-    final = trial.generation >= last_generation(walk, trial)
+    final = trial.generation >= last_generation(walk.config, trial)
     return (1 if final else walk.config.minimum), walk.config.maximum
 
 
@@ -150,7 +151,7 @@ def _choice(walk: Walk, trial: Trial, body: ChoiceAnswer) -> None:
     _check_choice(_bounds(walk, trial), faces, body)
     elite = faces[body.elite]
     runs.add(walk.tx, _record(elite.generation_id, body, none_is_close=_none_is_close(walk, body)))
-    if trial.generation < last_generation(walk, trial):
+    if trial.generation < last_generation(walk.config, trial):
         slots = [faces[face].slot for face in body.selected]
         _offer(walk, trial, walk.evolution.tell(trial, slots, elite.slot))
         return
@@ -263,7 +264,7 @@ def _following(walk: Walk, trial: Trial, body: AnswerBody) -> State | None:
     if isinstance(body, ResetAnswer):
         return walk.evolution.begin(trial, trial.attempt + 1)
     slots = {face.id: face.slot for face in runs.faces_on_screen(walk.tx, trial)}
-    final = trial.generation >= last_generation(walk, trial)
+    final = trial.generation >= last_generation(walk.config, trial)
     if final or body.elite not in slots or not set(body.selected) <= set(slots):
         return None
     return walk.evolution.tell(trial, [slots[face] for face in body.selected], slots[body.elite])

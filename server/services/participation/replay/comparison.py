@@ -10,8 +10,11 @@ from emogen_core.search import Choice, State, strategy
 
 from ...faces.correction import Correction
 from ...faces.sketch import unpack_genes, unpack_weights
-from ...trials.evolution import Evolution, params_of
+from ...trials.evolution import SLOTS, Evolution, params_of
+from ...trials.evolve import last_generation
 from ..plan import trial_seed
+from .planned import unplanned
+from .recorded import Difference, Replayed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -21,49 +24,10 @@ if TYPE_CHECKING:
     from ....store.runs_tables import ChoiceRecord, Face, Generation, Trial
     from ...config import StudyConfig
     from ...faces.wardrobe import Wardrobe
+    from .recorded import Recorded, Shown
 
-    Shown = Sequence[tuple[Generation, Sequence[Face], ChoiceRecord | None]]
     Found = tuple[int | None, str, str, str]
     """Slot, what, expected, got."""
-
-
-@dataclass(frozen=True, slots=True)
-class Difference:
-    """The first place where the record and its replay disagree; empty where it is not about a generation or a slot."""
-
-    participation: str
-    trial: str
-    attempt: int | None
-    generation: int | None
-    slot: int | None
-    what: str
-    expected: str
-    got: str
-
-
-@dataclass(frozen=True, slots=True)
-class Replayed:
-    """What a replay covered, and the first difference if there is one."""
-
-    generations: int
-    difference: Difference | None
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Recorded:
-    """One participation as it was recorded.
-
-    Attributes:
-        participation: its id.
-        seed: of the participation, decimal.
-        config: the study as it had it, in its condition.
-        trials: in their order, each with the generations that were shown, in the order of showing, and their choices.
-    """
-
-    participation: str
-    seed: str
-    config: StudyConfig
-    trials: Sequence[tuple[Trial, Shown]]
 
 
 @dataclass(frozen=True)
@@ -79,6 +43,9 @@ class Comparison:
         Raises:
             ConflictError: a head that it saw cannot be fitted any more.
         """
+        difference = unplanned(recorded)
+        if difference is not None:
+            return Replayed(0, difference)
         self.wardrobe.know(recorded.config)
         for head in sorted({trial.identity for trial, _ in recorded.trials} - {""}):
             self.wardrobe.wait(head)
@@ -98,9 +65,7 @@ class Comparison:
         """Yield for every generation what is different in it, and what is in the trial before and after them."""
         yield from _amiss(trial, "seed", trial_seed(int(recorded.seed), trial.position), trial.seed)
         yield from self._generations(recorded.config, trial, shown)
-        best = [choice.elite_face_id for _, _, choice in shown if choice is not None]
-        if trial.final_face_id:
-            yield from _amiss(trial, "final_face", best[-1] if best else "none", trial.final_face_id)
+        yield from _ending(recorded, trial, shown)
 
     def _generations(self, config: StudyConfig, trial: Trial, shown: Shown) -> Iterator[Difference | None]:
         search, state = strategy(config.search.strategy), None
@@ -117,13 +82,13 @@ class Comparison:
         self, trial: Trial, config: StudyConfig, state: State, recorded: tuple[Generation, Sequence[Face]]
     ) -> Found | None:
         generation, faces = recorded
-        if generation.number != state.generation or len(faces) != 10:
+        if generation.number != state.generation or len(faces) != SLOTS:
             return None, "generation", f"{state.generation}", f"{generation.number} with {len(faces)} faces"
         evolution = Evolution(self.rig, config, self._correction, lambda *_: "")
         _, again = evolution.offer(trial, state)
         places = evolution.places(state)
         for face, made in zip(faces, again, strict=True):
-            for what in ("slot", "origin", "parents", "genes", "weights", *_collision_columns(face)):
+            for what in ("slot", "identity", "origin", "parents", "genes", "weights", *_collision_columns(face)):
                 expected, got = getattr(made, what), getattr(face, what)
                 if expected != got:
                     return face.slot, what, *self._told_apart(what, expected, got)
@@ -148,6 +113,21 @@ def _collision_columns(face: Face) -> tuple[str, ...]:
     """Return the columns of the collision's result; none for a face that was stored before there were any."""
     columns = ("collided_lips", "collided_teeth", "depth_before", "depth_after")
     return columns if any(getattr(face, column) is not None for column in columns) else ()
+
+
+def _ending(recorded: Recorded, trial: Trial, shown: Shown) -> Iterator[Difference]:
+    """Yield what is wrong with where a trial stands: a finished one ends with the best face of its last generation."""
+    if trial.kind != "evolve":
+        return
+    generation, _, choice = shown[-1] if shown else (None, (), None)
+    if generation is not None:
+        yield from _amiss(trial, "attempts", str(generation.attempt), str(trial.attempt))
+        yield from _amiss(trial, "generations", str(generation.number), str(trial.generation))
+    last = generation is not None and generation.number == last_generation(recorded.config, trial)
+    best = choice.elite_face_id if choice is not None and last else "none"
+    yield from _amiss(trial, "final_face", best, trial.final_face_id or "none")
+    if recorded.complete and best == "none":
+        yield from _amiss(trial, "final_face", "one, since the participation is complete", "none")
 
 
 def _amiss(trial: Trial, what: str, expected: str, got: str) -> Iterator[Difference]:

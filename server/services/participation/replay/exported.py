@@ -13,7 +13,8 @@ import numpy as np
 from ....store.runs_tables import ChoiceRecord, Face, Generation, Trial
 from ...faces.sketch import pack_genes, pack_weights
 from ..recorded_export import RecordedExport, matrix
-from .comparison import Comparison, Difference, Recorded, Replayed
+from .comparison import Comparison
+from .recorded import Difference, Recorded, Replayed, Seat
 from .stored import other_rig
 
 if TYPE_CHECKING:
@@ -82,12 +83,17 @@ class ExportReplay:
         marked = self._marked(who)
         if marked:
             return marked
-        trials = [(trial, self._shown(trial)) for trial in self._trials[who]]
-        return Recorded(who, row["seed"], self._record.own(row), trials)
+        complete = row["outcome"] == "complete"
+        return Recorded(
+            who, row["seed"], self._record.own(row),
+            Seat(row["head"] or "", row["order_row"], tuple(json.loads(row["trial_order"]))),
+            complete, "some" if self._partial else "all" if complete else "begun",
+            [(trial, self._shown(trial)) for trial in self._trials[who]],
+        )  # fmt: skip
 
     def _marked(self, who: str) -> Difference | None:
         """Return the first face whose row says something else of its choice than the choice does."""
-        for where in (place for trial in self._trials[who] for place in self._generations[trial.id]):
+        for where in (place for trial in self._trials[who] for place in self._generations.get(trial.id, ())):
             choice = self._choices.get(where)
             for _, face in self._offered[where]:
                 chosen = choice and (face["face"] in json.loads(choice["selected"]), face["face"] == choice["elite"])
@@ -103,7 +109,7 @@ class ExportReplay:
                 [self._face(at, row) for at, row in self._offered[where]],
                 _choice(self._choices.get(where)),
             )
-            for where in self._generations[trial.id]
+            for where in self._generations.get(trial.id, ())
         ]
 
     def _face(self, at: int, row: Row) -> Face:
@@ -131,17 +137,23 @@ class ExportReplay:
     def _record(self) -> RecordedExport:
         return RecordedExport(self.export)
 
+    @property
+    def _partial(self) -> bool:
+        """Whether the export was restricted to some trials of its people."""
+        return not {"block", "emotion"}.isdisjoint(self.export.manifest["filters"])
+
     @cached_property
     def _trials(self) -> Mapping[str, list[Trial]]:
         found: dict[str, list[Trial]] = defaultdict(list)
         for row in sorted(self.export.arrow("trials").to_pylist(), key=lambda row: row["position"]):
-            if row["kind"] == "evolve":
-                found[row["participation"]].append(
-                    Trial(
-                        id=row["trial"], participation_id=row["participation"], position=row["position"],
-                        identity=row["identity"], seed=row["seed"], final_face_id=row["final_face"],
-                    )
-                )  # fmt: skip
+            found[row["participation"]].append(
+                Trial(
+                    id=row["trial"], participation_id=row["participation"], position=row["position"],
+                    block=row["block"], kind=row["kind"], practice=row["practice"], emotion=row["emotion"] or "",
+                    identity=row["identity"] or "", seed=row["seed"], attempt=row["attempts"],
+                    generation=row["generations"], final_face_id=row["final_face"],
+                )
+            )  # fmt: skip
         return found
 
     @cached_property

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from ...faces.drawing import PoolDrawer
     from ...faces.wardrobe import Wardrobe
-    from .comparison import Recorded
+    from .recorded import Recorded
 
 Waiting = tuple[str, "Future[bytes]"]
 Which = Literal["finished", "best", "all"]

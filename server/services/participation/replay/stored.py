@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING
 from ....store import runs, studies
 from ...config.stored import own_config
 from ...errors import NotFoundError, ServiceError
-from .comparison import Comparison, Recorded, Replayed
+from .comparison import Comparison
+from .recorded import Recorded, Replayed, Seat
 
 if TYPE_CHECKING:
+    from ....store.runs_tables import Participation
     from ..journal import Journal
 
 
@@ -68,7 +70,17 @@ class Replay:
             if participation.rig_hash != self.journal.rig.hash:
                 raise other_rig(self.journal.rig.hash, participation.rig_hash)
             trials = [(trial, runs.generations_with_faces(tx, trial.id)) for trial in runs.trials(tx, participation.id)]
-            return Recorded(participation.id, participation.seed, own_config(tx, participation), trials)
+            return Recorded(
+                participation.id, participation.seed, own_config(tx, participation), _seat(participation),
+                participation.outcome == "complete", "all", trials,
+            )  # fmt: skip
+
+
+def _seat(participation: Participation) -> Seat | None:
+    """Return where somebody sat; erasing gives that up with everything else."""
+    if participation.erased_at is not None:
+        return None
+    return Seat(participation.head, participation.order_row, tuple(participation.trial_order))
 
 
 def other_rig(expected: str, got: str) -> NotFoundError:

@@ -4,8 +4,8 @@ import hashlib
 import json
 import shutil
 
-from emogen_client import Export
 from server.services.participation.replay.exported import ExportReplay
+from server.services.participation.sound_export import SoundExport
 from server.services.reports.tables.package import write_folder
 
 
@@ -18,7 +18,7 @@ def exported(house, study, folder, form="jsonl"):
 
 def replayed(house, folder):
     """Replay an export with the rig and the heads of a house."""
-    export = Export(folder)
+    export = SoundExport(folder)
     export.verify()
     return ExportReplay(export, house.journal.rig, house.journal.wardrobe).everybody()
 

@@ -1,11 +1,15 @@
 """An export replays from its own files, and every tampering with it is found, also where the manifest was mended."""
 
 import json
+import re
 
 import pytest
 
 from emogen_client import IncompleteError
 from server.services.errors import InvalidError, NotFoundError
+from server.services.participation.sound_export import SoundExport
+from server.services.reports.tables.package import write_folder
+from server.services.reports.tables.selection import Filters
 from tests.conftest import BOTH, small_study
 from tests.server.services.participation.replay.exports import exported, replayed, tampered
 from tests.server.walker import Walker
@@ -66,6 +70,7 @@ def swapped_best(rows):
 
 
 THERE = on(erased_at=None)
+THERE_TOO = on(simulated=False)
 LATE = on(practice=False, generation=2, slot=5)
 
 
@@ -82,6 +87,21 @@ LATE = on(practice=False, generation=2, slot=5)
         (("choices", swapped_best), ("marks", None)),
         (("choices", changed(on(practice=False), elite="nobody")), ("marks", None)),
         (("trials", changed(on(practice=False), seed="12345")), ("seed", None)),
+        (("trials", changed(on(practice=False), position=7)), ("position", None)),
+        (("trials", changed(on(practice=False), kind="rate")), ("kind", None)),
+        (("trials", changed(on(practice=False), identity="male")), ("identity", None)),
+        (("trials", changed(lambda row: row["final_face"], attempts=1)), ("attempts", None)),
+        (("trials", changed(lambda row: row["final_face"], generations=2)), ("generations", None)),
+        (("trials", changed(lambda row: row["final_face"], final_face=None)), ("final_face", None)),
+        (("faces", changed(LATE, identity="male")), ("identity", 5)),
+        (("participations", changed(THERE, order_row=1)), ("trial_order", None)),
+        (("participations", changed(THERE, order_row=None, trial_order=["happy", "happy"])), ("trial_order", None)),
+        (("participations", changed(THERE, trial_order=["happy", "happy"])), ("trial_order", None)),
+        (("participations", changed(THERE, head="")), ("head", None)),
+        (
+            ("participations", changed(on(outcome=None, erased_at=None), outcome="complete")),
+            ("positions", None),
+        ),
         (("trials", changed(lambda row: row["final_face"], final_face="another")), ("final_face", None)),
         (("participations", changed(THERE, seed="99")), ("seed", None)),
         (
@@ -117,6 +137,99 @@ def test_a_choice_that_was_changed_with_its_marks_breaks_what_followed_from_it(h
     other = tampered(tampered(folder, "choices", choose), "faces", mark)
     difference = replayed(house, other).difference
     assert (difference.trial, difference.generation) == (trial, 1)
+
+
+def test_a_trial_that_is_told_as_another_emotion_everywhere_is_found(house, study, tmp_path):
+    folder = exported(house, study, tmp_path / "whole")
+    trial = next(row for row in map(json.loads, lines(folder, "trials")) if row["final_face"] and not row["practice"])
+
+    def rename(rows):
+        for row in rows:
+            if row["trial"] == trial["trial"]:
+                row["emotion"] = "jealous"
+
+    for table in ("trials", "generations", "faces", "choices", "events", "ratings"):
+        folder = tampered(folder, table, rename)
+    difference = replayed(house, folder).difference
+    assert (difference.trial, difference.what) == (trial["trial"], "emotion")
+    assert (difference.expected, difference.got) == (trial["emotion"], "jealous")
+
+
+CONTRADICTIONS = [
+    ("choices", lambda rows: rows.append(rows[-1]), "choices: expected every row once, got trial"),
+    ("faces", lambda rows: rows.append({**rows[0], "slot": 2}), "faces: expected every row once, got face"),
+    (
+        "generations", lambda rows: rows.append({**rows[0], "generation_id": "new"}),
+        "generations: expected every row once, got trial",
+    ),
+    ("participations", lambda rows: rows.append(rows[0]), "participations: expected every row once"),
+    ("choices", changed(on(practice=True), practice=False), "expected practice True as in trials, for trial"),
+    ("faces", changed(on(emotion="angry"), emotion="sad"), "expected emotion angry as in trials, for trial"),
+    ("trials", changed(THERE_TOO, pilot=True), "expected pilot False as in participations, for participation"),
+    ("choices", changed(THERE_TOO, trial="none"), "rows of the trials in trials, got one of none"),
+    ("ratings", changed(THERE_TOO, value=99), "ratings: expected value 1 to 7, got 99"),
+    ("faces", changed(LATE, gene_g1=1.5), "faces: expected gene_g1 0 to 1, got 1.5"),
+    (
+        "participations", changed(on(outcome="complete"), erased_at="2026-01-01T00:00:00.000Z"),
+        "expected rows of the participations in participations, got one of",
+    ),
+]  # fmt: skip
+
+
+def test_an_export_that_contradicts_itself_is_refused(house, study, tmp_path):
+    folder = exported(house, study, tmp_path / "whole")
+    for table, change, message in CONTRADICTIONS:
+        export = SoundExport(tampered(folder, table, change))
+        with pytest.raises(InvalidError, match=f"contradicts itself.*{re.escape(message)}"):
+            for name in export.tables:
+                export.arrow(name)
+    whole = SoundExport(folder)
+    assert all(whole.arrow(name).num_columns for name in whole.tables)
+
+
+def test_the_end_of_a_trial_that_is_cut_off_is_found(house, study, tmp_path):
+    folder = exported(house, study, tmp_path / "whole")
+    trial = next(row for row in map(json.loads, lines(folder, "trials")) if row["final_face"] and not row["practice"])
+
+    def cut(rows):
+        rows[:] = [row for row in rows if row["trial"] != trial["trial"] or row["generation"] < trial["generations"]]
+
+    def shorten(rows):
+        row = next(row for row in rows if row["trial"] == trial["trial"])
+        row.update(generations=row["generations"] - 1, final_face=None)
+
+    for table in ("generations", "faces", "choices", "events"):
+        folder = tampered(folder, table, cut)
+    difference = replayed(house, tampered(folder, "trials", shorten)).difference
+    assert (difference.trial, difference.what) == (trial["trial"], "final_face")
+    assert difference.expected == "one, since the participation is complete"
+
+
+def test_a_trial_of_a_complete_participation_that_was_left_out_is_found(house, study, tmp_path):
+    folder = exported(house, study, tmp_path / "whole")
+    rows = [json.loads(line) for line in lines(folder, "trials")]
+    whole = next(row["participation"] for row in map(json.loads, lines(folder, "participations")) if row["outcome"])
+    last = max((row for row in rows if row["participation"] == whole), key=lambda row: row["position"])
+
+    def leave_out(rows):
+        rows[:] = [row for row in rows if row["trial"] != last["trial"]]
+
+    for table in ("trials", "generations", "faces", "choices", "events", "ratings"):
+        folder = tampered(folder, table, leave_out)
+    difference = replayed(house, folder).difference
+    assert (difference.participation, difference.what) == (whole, "positions")
+    assert difference.expected == "0, 1, 2"
+    assert difference.got == "0, 1"
+
+
+def test_an_export_of_one_emotion_replays_as_far_as_it_goes(house, study, tmp_path):
+    folder = tmp_path / "one"
+    folder.mkdir()
+    package = house.exports.package(study.id, "jsonl", Filters(emotion="angry"))
+    assert list(write_folder(package.entries(), folder))
+    found = replayed(house, folder)
+    assert found.difference is None
+    assert 0 < found.generations < house.replay.study(study.id).generations
 
 
 def lines(folder, table):
