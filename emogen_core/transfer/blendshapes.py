@@ -97,7 +97,7 @@ def transfer(
 
 @dataclass(frozen=True, eq=False)
 class _Task:
-    """What methods work on, all in the template's frame."""
+    """What methods work on: what was given, and from it, when a method asks, arrays of the template's frame."""
 
     given: Template
     target: NDArray[np.floating]
@@ -106,22 +106,27 @@ class _Task:
 
     @cached_property
     def neutral(self) -> Mesh:
+        """(N, 3) the template at rest, millimetres."""
         return self.given.neutral.astype(np.float64)
 
     @cached_property
     def offsets(self) -> Mesh:
+        """(K, N, 3) the template's shapes, millimetres from its neutral."""
         return self.given.offsets.astype(np.float64)
 
     @cached_property
     def aimed(self) -> Mesh:
+        """(N, 3) the target at rest, laid onto the template, millimetres."""
         return self.alignment.onto_template(self.target)
 
     @cached_property
     def samples(self) -> NDArray[np.intp]:
+        """(M,) vertices, spread evenly, on which smooth functions stand."""
         return spread_samples(self.neutral, _SAMPLES)
 
     @cached_property
     def evidence(self) -> Evidence:
+        """The training expressions, laid onto the template with the target; none where none were given."""
         if self.training is None or not len(self.training.weights):
             return Evidence(np.zeros((0, len(self.offsets))), np.zeros((0, *self.neutral.shape)))
         shown = self.alignment.onto_template(self.training.meshes) - self.aimed

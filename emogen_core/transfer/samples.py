@@ -19,9 +19,10 @@ _NARROWEST = 1e-3
 
 
 def spread_samples(neutral: Mesh, most: int) -> NDArray[np.intp]:
-    """Return at most so many vertices of an (N, 3) head, each farthest from those before it, with its mirror image.
+    """Return so many vertices of an (N, 3) head, sorted, each farthest from those before it, with its mirror image.
 
-    Of a symmetric head they are symmetric, and so is what is made from them.
+    Of a symmetric head they are symmetric, and so is what is made from them: where a mirror image is one too many, it
+    is taken all the same. There are fewer where the head has fewer places.
     """
     mirror = mirror_image(neutral)
     chosen: list[int] = []

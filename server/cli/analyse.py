@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -32,11 +31,11 @@ from ..services.faces.drawing import PoolDrawer
 from ..services.faces.tailor import HouseTailor
 from ..services.faces.wardrobe import Wardrobe
 from ..services.participation.sound_export import SoundExport
-from .common import made_folder, plainly, stop, unwritable
+from .common import made_folder, plainly, progress, stop, unwritable
 from .threshold import Seed
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
 
     import numpy as np
     from numpy.typing import NDArray
@@ -142,23 +141,11 @@ def _context(recording: Recording, rig: Rig, wardrobe: Wardrobe, seed: int, stud
     def corrected(identity: str, genes: NDArray[np.float64]) -> NDArray[np.float32]:
         return correction.faces(identity, [genes])[0].weights
 
-    with _progress("Simulating") as done:
+    with progress("Simulating") as done:
         simulated = simulate(rig, recording, seed, done)
     return Context(recording, rig, simulated, corrected, seed, studio)
 
 
 def _sections(context: Context) -> list[Section]:
-    with _progress("Analysing") as done:
+    with progress("Analysing") as done:
         return sections(context, done)
-
-
-@contextmanager
-def _progress(label: str) -> Iterator[Callable[[int, int], None]]:
-    """Show how many of how many are done."""
-    with typer.progressbar(length=1, label=label, file=sys.stderr) as bar:
-
-        def done(count: int, of: int) -> None:
-            bar.length = of
-            bar.update(count - bar.pos)
-
-        yield done

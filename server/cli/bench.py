@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import json
 import tempfile
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from threadpoolctl import threadpool_limits
 
 from emogen_core.cores import cores
-from emogen_core.face.bundled import load_bundled_rig
-from emogen_core.face.rig_file import load_rig
 
 from .bench_analysis import bench_analysis
 from .bench_export import bench_export
@@ -22,16 +21,21 @@ from .bench_packing import bench_packing
 from .bench_simulate import bench_simulate
 from .bench_transfer import bench_transfer
 from .chromium import chromium
-from .common import load_settings, opened, plainly
+from .common import Json, load_settings, opened, plainly, report_text, rig_of
 from .local import served
 from .turnaround import measure
 
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from ..services.house import House
+
 app = typer.Typer(help="Measure this machine.", no_args_is_help=True)
 
+RigFile = Annotated[Path | None, typer.Option("--rig", help="A rig file; the bundled one if left out.")]
 Rounds = Annotated[int, typer.Option(min=1, help="How many measurements.")]
 Generations = Annotated[int, typer.Option(min=1, help="How many choices.")]
 Look = Annotated[float, typer.Option(min=0.5, help="Seconds that the participant looks at ten faces.")]
-Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 
 
 @app.command("render")
@@ -74,13 +78,13 @@ def analysis(
 
 @app.command("packing")
 def packing(
-    rig: Annotated[Path | None, typer.Option(help="A rig file; the bundled one if left out.")] = None,
+    rig: RigFile = None,
     rounds: Rounds = 9,
     json_: Json = False,
 ) -> None:
     """Measure expression packing on one core, loading not counted, and count the expressions that a rig needs."""
     with plainly(), threadpool_limits(1):
-        _print(bench_packing(load_rig(rig) if rig else load_bundled_rig(), rounds), json_)
+        _print(bench_packing(rig_of(rig), rounds), json_)
 
 
 @app.command("landmarks")
@@ -97,14 +101,14 @@ def landmarks(
 
 @app.command("transfer")
 def transfer(
-    rig: Annotated[Path | None, typer.Option(help="A rig file; the bundled one if left out.")] = None,
+    rig: RigFile = None,
     seeds: Annotated[int, typer.Option(min=1, help="Heads of known shapes.")] = 3,
     rounds: Rounds = 5,
     json_: Json = False,
 ) -> None:
     """Measure how near shapes on another head come to true ones by each method, and the time on one core."""
     with plainly(), threadpool_limits(1):
-        _print(bench_transfer(load_rig(rig) if rig else load_bundled_rig(), seeds, rounds), json_)
+        _print(bench_transfer(rig_of(rig), seeds, rounds), json_)
 
 
 @app.command("turnaround")
@@ -125,10 +129,8 @@ def monitor(
     json_: Json = False,
 ) -> None:
     """Measure the monitor of a large study and the list of many, on a database that is filled for it."""
-    with tempfile.TemporaryDirectory() as folder:
-        settings = load_settings(data_dir=Path(folder), database_url="", port=0)
-        with opened(settings, drawing=False) as house:
-            _print(bench_monitor(house, participations, generations, studies, rounds), json_)
+    with _empty_house() as house:
+        _print(bench_monitor(house, participations, generations, studies, rounds), json_)
 
 
 @app.command("export")
@@ -137,11 +139,18 @@ def export(
     json_: Json = False,
 ) -> None:
     """Measure the export in every format on one core: rows a second, and memory above that of an idle process."""
+    with _empty_house() as house:
+        _print(bench_export(house, rows), json_)
+
+
+@contextmanager
+def _empty_house() -> Iterator[House]:
+    """Open a house with a database of its own, which goes with it."""
     with tempfile.TemporaryDirectory() as folder:
         settings = load_settings(data_dir=Path(folder), database_url="", port=0)
         with opened(settings, drawing=False) as house:
-            _print(bench_export(house, rows), json_)
+            yield house
 
 
 def _print(report: dict[str, Any], as_json: bool) -> None:
-    typer.echo(json.dumps(report, indent=2) if as_json else "\n".join(f"{n}: {v}" for n, v in report.items()))
+    typer.echo(report_text(report, as_json=as_json))

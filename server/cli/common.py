@@ -1,15 +1,19 @@
-"""What commands share: the settings, and errors as one sentence instead of a stack trace."""
+"""What commands share: options, the settings, reports, and errors as one sentence instead of a stack trace."""
 
 from __future__ import annotations
 
+import json
+import sys
 from contextlib import contextmanager
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from pydantic import ValidationError
 
 from emogen_core.errors import EmogenError, expected
+from emogen_core.face.bundled import load_bundled_rig
+from emogen_core.face.rig_file import load_rig
 
 from ..services.config.files import read_study
 from ..services.errors import InvalidError, ServiceError
@@ -17,11 +21,16 @@ from ..services.opening import open_house
 from ..settings import Settings
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator, Mapping
     from pathlib import Path
+
+    from emogen_core.face.rig import Rig
 
     from ..services.config import StudyConfig
     from ..services.house import House
+
+Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+Backend = Annotated[str, typer.Option(help="pyrender or software.")]
 
 
 def load_settings(**given: object) -> Settings:
@@ -68,6 +77,32 @@ def read_file(file: Path) -> StudyConfig:
     except OSError as error:
         raise stop(f"{file}: expected a study file, got {error.strerror}") from error
     return read_study(content)
+
+
+def rig_of(file: Path | None) -> Rig:
+    """Return the rig of a file, or the bundled one where no file is named.
+
+    Raises:
+        RigFileError: no rig file of this version, or damaged.
+    """
+    return load_bundled_rig() if file is None else load_rig(file)
+
+
+def report_text(report: Mapping[str, Any], *, as_json: bool) -> str:
+    """Return a report as it is printed: JSON, or a line for each of its entries."""
+    return json.dumps(report, indent=2) if as_json else "\n".join(f"{name}: {value}" for name, value in report.items())
+
+
+@contextmanager
+def progress(label: str) -> Iterator[Callable[[int, int], None]]:
+    """Show on standard error how many of how many are done, as often as what is yielded is told."""
+    with typer.progressbar(length=1, label=label, file=sys.stderr) as bar:
+
+        def done(count: int, of: int) -> None:
+            bar.length = of
+            bar.update(count - bar.pos)
+
+        yield done
 
 
 def made_folder(path: Path) -> Path:

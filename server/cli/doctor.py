@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -19,7 +19,7 @@ from emogen_core.rendering.setup import look_for
 
 from ..assets import asset
 from ..services.diagnosis import database_report
-from .common import load_settings
+from .common import Json, load_settings
 
 if TYPE_CHECKING:
     from ..settings import Settings
@@ -40,7 +40,7 @@ print(json.dumps({**{k: glGetString(v).decode() for k, v in names.items()}, "dre
 Report = dict[str, Any]
 
 
-def doctor(json_: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False) -> None:
+def doctor(json_: Json = False) -> None:
     """Say where both packages come from, whether this machine draws, and how the database stands."""
     settings = load_settings()
     report = {

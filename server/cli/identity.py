@@ -16,7 +16,7 @@ from emogen_core.face.identity import Identity, identity_hash, is_adult, load_id
 from emogen_core.face.space_file import load_bundled_space
 from emogen_core.rigs.identities import IDENTITIES, preset
 
-from .common import plainly
+from .common import Backend, Json, plainly, report_text
 
 if TYPE_CHECKING:
     from emogen_core.face.space import IdentitySpace
@@ -26,7 +26,6 @@ app = typer.Typer(help="Heads: the presets, and any point of the space between a
 Name = Annotated[str, typer.Argument(help="A preset, or a file with an identity document.")]
 File = Annotated[Path, typer.Argument(help="A file with an identity document.")]
 Out = Annotated[Path, typer.Option("--out", help="File to write.")]
-Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 Sex = Annotated[float, typer.Option(help="0 female to 1 male.")]
 Age = Annotated[float, typer.Option(help="Years in the source's scale.")]
 Ancestry = Annotated[str, typer.Option(help="Shares that sum to 1: african=.2,asian=.3,caucasian=.5")]
@@ -36,7 +35,6 @@ Details = Annotated[list[str] | None, typer.Option("--set", help="A detail: nose
 Title = Annotated[str, typer.Option("--name", help="What people call the head.")]
 Width = Annotated[int, typer.Option(min=16, max=4096, help="Pixels.")]
 Height = Annotated[int, typer.Option(min=16, max=4096, help="Pixels.")]
-Backend = Annotated[str, typer.Option(help="pyrender or software.")]
 _NO_DETAILS: list[str] = []
 
 
@@ -102,7 +100,7 @@ def check(file: File, json_: Json = False) -> None:
         rig, worn = import_module("emogen_core.rigs.wear").wear(load_bundled_rig(), space, identity, children=True)
         measured = import_module("emogen_core.rigs.head_check").check_head(rig, worn, space.low.astype(float))
     report = {"hash": identity_hash(identity, space), "adult": is_adult(identity, space), **measured}
-    typer.echo(json.dumps(report, indent=2) if json_ else "\n".join(f"{key}: {value}" for key, value in report.items()))
+    typer.echo(report_text(report, as_json=json_))
 
 
 @app.command("draw")

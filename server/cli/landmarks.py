@@ -15,7 +15,7 @@ from emogen_core.face.container import check_writable
 from emogen_core.landmarks.points import feature_points
 
 from ..reporting.files import replace
-from .common import plainly, stop
+from .common import Backend, Json, plainly, stop
 from .landmark_files import SINGLE, Fit
 from .landmark_input import Asked, fit_file
 
@@ -32,13 +32,11 @@ Identity = Annotated[str, typer.Option(help="The head that is driven; the rig's 
 Seed = Annotated[int, typer.Option(min=0, help="Of the genetic algorithm: the same seed gives the same face.")]
 Frame = Annotated[str, typer.Option(help="A frame by its name (a timecode) or number from 1; all of them without it.")]
 Unit = Annotated[str, typer.Option(help="Of the points: mm, cm or m.")]
-Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 Out = Annotated[Path | None, typer.Option("--out", help="A folder, or a file that ends in .json, .csv or .yaml.")]
 Picture = Annotated[Path | None, typer.Option("--out", help="Picture to write: .png or .jpg.")]
 _SHOWN = 10
 """Frames that are told as text."""
 _PICTURES = (".png", ".jpg")
-Backend = Annotated[str, typer.Option(help="pyrender or software.")]
 
 
 @app.command("fit")

@@ -12,8 +12,6 @@ import typer
 from threadpoolctl import threadpool_limits
 
 from emogen_core.errors import RenderingError
-from emogen_core.face.bundled import load_bundled_rig
-from emogen_core.face.rig_file import load_rig
 from emogen_core.rendering.setup import BACKENDS
 from emogen_core.rigs.target_head import target_head
 from emogen_core.transfer.packing.pack import ORDERS, Options
@@ -23,7 +21,7 @@ from ..packing.files import PAGE, write
 from ..packing.making import make
 from ..packing.studio import studio
 from ..release import release
-from .common import made_folder, plainly, unwritable
+from .common import Json, made_folder, plainly, rig_of, unwritable
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -47,7 +45,6 @@ Poseability = Annotated[
 Order = Annotated[str, typer.Option(help=f"{' or '.join(ORDERS)}: as published, or the fewest expressions.")]
 Target = Annotated[str, typer.Option(help="Who is on the cards: a head of the rig, or an OBJ file of its mesh.")]
 Backend = Annotated[str, typer.Option(help=f"What draws: {' or '.join(BACKENDS)}.")]
-Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 
 
 def pack(  # noqa: PLR0913, PLR0917 - typer reads the options from the signature
@@ -58,7 +55,7 @@ def pack(  # noqa: PLR0913, PLR0917 - typer reads the options from the signature
     """Choose as few expressions as possible that show every shape of a rig, and draw a card of each."""
     options = Options(mu, alpha, beta, most, symmetry, poseability, order)
     with plainly(), threadpool_limits(1):
-        model, head = target_head(load_rig(rig) if rig else load_bundled_rig(), target)
+        model, head = target_head(rig_of(rig), target)
         made = make(model, head, options)
         with _studio(model, head, backend) as draws:
             folder = made_folder(out)

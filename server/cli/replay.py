@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from contextlib import closing
 from dataclasses import asdict
 from pathlib import Path
@@ -22,7 +21,7 @@ from ..services.participation.replay.exported import ExportReplay
 from ..services.participation.replay.portraits import Album, Which
 from ..services.participation.replay.recorded import Replayed
 from ..services.participation.sound_export import SoundExport
-from .common import made_folder, plainly, stop, unwritable
+from .common import made_folder, plainly, progress, stop, unwritable
 
 if TYPE_CHECKING:
     from ..services.participation.replay.recorded import Difference
@@ -42,7 +41,8 @@ def replay(export: From, portraits: Portraits = None, faces: Faces = "finished",
             kept = SoundExport(export)
             kept.verify()
             again = ExportReplay(kept, rig, wardrobe)
-            found = _replayed(again)
+            with progress("Replaying") as done:
+                found = again.everybody(done)
             if portraits is not None and found.difference is None:
                 _draw(again, made_folder(portraits), faces)
         except EmogenClientError as error:
@@ -50,16 +50,6 @@ def replay(export: From, portraits: Portraits = None, faces: Faces = "finished",
     typer.echo(json.dumps(asdict(found), indent=2) if json_ else _sentence(found))
     if found.difference is not None:
         raise typer.Exit(1)
-
-
-def _replayed(again: ExportReplay) -> Replayed:
-    with typer.progressbar(length=1, label="Replaying", file=sys.stderr) as bar:
-
-        def done(count: int, of: int) -> None:
-            bar.length = of
-            bar.update(count - bar.pos)
-
-        return again.everybody(done)
 
 
 def _draw(again: ExportReplay, folder: Path, which: Which) -> None:

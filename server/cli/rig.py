@@ -14,7 +14,7 @@ from emogen_core.face.container import check_writable
 from emogen_core.face.space_file import BUNDLED_SPACE
 from emogen_core.rendering.setup import BUNDLED_LOOK
 
-from .common import made_folder, plainly, stop
+from .common import Json, made_folder, plainly, stop
 from .pack import pack
 from .rig_export import export
 from .transfer import transfer
@@ -39,7 +39,6 @@ Genes = Annotated[list[str] | None, typer.Option("--gene", help="A gene and its 
 Emotion = Annotated[str, typer.Option(help="This emotion set at full strength, before --gene.")]
 Size = Annotated[int, typer.Option(min=16, max=4096, help="Width and height in pixels.")]
 Png = Annotated[Path, typer.Option("--out", help="PNG file to write.")]
-Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 
 
 @app.command("build")

@@ -16,7 +16,7 @@ from emogen_core.simulation.observer import Observer
 from ..app import create_app
 from ..services.studies.simulation import Report, Simulation
 from ..services.trials.evolution import params_of
-from .common import load_settings, opened, plainly, stop
+from .common import Json, load_settings, opened, plainly, stop
 
 Count = Annotated[int, typer.Option(min=1, max=10_000, help="How many.")]
 Study = Annotated[str, typer.Option(help="Id of the study.")]
@@ -24,7 +24,6 @@ Link = Annotated[str | None, typer.Option(help="Last part of a participant link;
 Seed = Annotated[int, typer.Option(min=0, help="The same seed gives the same participants and the same faces.")]
 Url = Annotated[str | None, typer.Option(help="A running server; without it the study runs in this process.")]
 Token = Annotated[str | None, typer.Option(envvar="EMOGEN_TOKEN", help="Token for simulations; with --url.")]
-Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 Noise = Annotated[float, typer.Option(min=0, help="Standard deviation of the error of every judged distance.")]
 Lapse = Annotated[float, typer.Option(min=0, max=1, help="Chance that a choice is made at random.")]
 Drift = Annotated[float, typer.Option(min=0, help="Step that every gene in mind takes after a generation (sd).")]

@@ -23,7 +23,7 @@ from ..services.faces.wardrobe import Wardrobe
 from ..services.studies.editing.making import example_text
 from ..services.studies.fitting import require_fit
 from ..services.studies.life import NewLinks, Status
-from .common import load_settings, opened, plainly, read_file, stop
+from .common import Json, load_settings, opened, plainly, read_file, stop
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -36,7 +36,6 @@ app = typer.Typer(help="Studies: check, make, change, compare, start and stop th
 
 File = Annotated[Path, typer.Argument(help="A study file, YAML or JSON.")]
 Id = Annotated[str, typer.Argument(metavar="ID", help="Id of the study, as in its address on the admin pages.")]
-Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 Note = Annotated[str, typer.Option(help="Why; stands beside the status and in the audit trail.")]
 First = Annotated[str, typer.Option("--status", help="draft, pilot or recruiting.")]
 Number = Annotated[int | None, typer.Option(min=1, help="Number of the version; the newest if left out.")]

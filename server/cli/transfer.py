@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import json
 import re
 from importlib import import_module
 from pathlib import Path
@@ -14,13 +13,12 @@ import typer
 from threadpoolctl import threadpool_limits
 
 from emogen_core.errors import InvalidInputError, expected
-from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.face.container import check_writable
-from emogen_core.face.rig_file import load_rig, save_rig
+from emogen_core.face.rig_file import save_rig
 from emogen_core.face.space_file import load_bundled_space
 
 from ..packing.files import WEIGHTS
-from .common import plainly
+from .common import Json, plainly, report_text, rig_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -46,7 +44,6 @@ Out = Annotated[Path, typer.Option("--out", help="Rig file to write.")]
 Method = Annotated[str, typer.Option(help=f"{_METHODS}.")]
 Name = Annotated[str, typer.Option(help="Of the head; the name of the file if left out.")]
 Fit = Annotated[bool, typer.Option("--fit/--no-fit", help="Fit lids and lips, where the mesh is the bundled one.")]
-Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 
 _CHECKED = ("visible_at_blink_mm2", "visible_worst_mm2", "shut_teeth_mm2", "closed_emotion_teeth_mm2", "lip_gap_mm")
 
@@ -58,21 +55,31 @@ def transfer(  # noqa: PLR0913, PLR0917 - typer reads the options from the signa
     """Carry a rig's shapes over to another head, and write that as a rig of its own."""
     making = import_module("emogen_core.rigs.transferred")
     with plainly(), threadpool_limits(1):
-        if len(heads) > 2:
-            raise InvalidInputError(f"arguments: {expected('a template and a target', heads)}")
+        rig, target = _template_and_target(heads)
         check_writable(out)
-        *template, target = heads
-        rig = load_rig(Path(template[0])) if template else load_bundled_rig()
         head = _target(rig, target, expressions)
         space = load_bundled_space()
         known = making.of_this_mesh(rig, space)
-        named = re.sub(r"[^A-Za-z0-9_-]+", "-", name or Path(target).stem).strip("-") or "head"
-        made = making.transferred(rig, head, named, method=method, space=space if known and fit else None)
+        fitted = known and fit
+        called = _slug(name or Path(target).stem)
+        made = making.transferred(rig, head, called, method=method, space=space if fitted else None)
         saved = save_rig(made, out)
-        report = _report(rig, saved, head, method)
-        report |= {"lids_and_lips_fitted": known and fit, **(_checked(saved, space) if known else {})}
-    shown = json.dumps(report, indent=2) if json_ else "\n".join(f"{key}: {value}" for key, value in report.items())
+        report = _report(rig, saved, head, method) | {"lids_and_lips_fitted": fitted}
+        report |= _checked(saved, space) if known else {}
+    shown = report_text(report, as_json=json_)
     typer.echo(shown if json_ else f"{shown}\n{out}")
+
+
+def _template_and_target(heads: list[str]) -> tuple[Rig, str]:
+    if len(heads) > 2:
+        raise InvalidInputError(f"arguments: {expected('a template and a target', heads)}")
+    *template, target = heads
+    return rig_of(Path(template[0]) if template else None), target
+
+
+def _slug(name: str) -> str:
+    """Return a name as a rig may have it: letters, digits, ``-`` and ``_``."""
+    return re.sub(r"[^A-Za-z0-9_-]+", "-", name).strip("-") or "head"
 
 
 def _report(template: Rig, made: Rig, head: Target, method: str) -> dict[str, Any]:

@@ -39,6 +39,13 @@ class NotFoundError(ServiceError):
     code = "not_found"
 
 
+class NoStudyError(NotFoundError):
+    """There is no study of this id."""
+
+    def __init__(self, study_id: str) -> None:
+        super().__init__("There is no such study.", field="study", got=study_id)
+
+
 class InvalidError(ServiceError):
     """The content is not acceptable; nothing was stored. `problems` has all that is wrong, where that is known."""
 

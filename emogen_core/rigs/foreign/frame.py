@@ -62,15 +62,16 @@ def _moved(model: HeadModel, matrix: Floats) -> HeadModel:
     if np.array_equal(matrix, np.eye(3)):
         return model
 
-    def moved(values: NDArray[np.float32]) -> NDArray[np.float32]:
-        return (values.astype(np.float64) @ matrix.T).astype(np.float32)
-
     return replace(
         model,
-        vertices=moved(model.vertices),
-        expressions={name: moved(offsets) for name, offsets in model.expressions.items()},
-        identity_modes={name: moved(offsets) for name, offsets in model.identity_modes.items()},
+        vertices=_mapped(model.vertices, matrix),
+        expressions={name: _mapped(offsets, matrix) for name, offsets in model.expressions.items()},
+        identity_modes={name: _mapped(offsets, matrix) for name, offsets in model.identity_modes.items()},
     )
+
+
+def _mapped(values: NDArray[np.float32], matrix: Floats) -> NDArray[np.float32]:
+    return (values.astype(np.float64) @ matrix.T).astype(np.float32)
 
 
 def _axes(model: HeadModel, findings: Findings) -> Floats:

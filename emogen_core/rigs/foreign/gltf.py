@@ -110,9 +110,10 @@ class _Scene:
             index = self.accessors.read(primitive["indices"], "SCALAR")[:, 0].astype(np.int64)
         else:
             index = np.arange(count)
-        if len(index) % 3 or (len(index) and index.max() >= count):
-            got = f"{len(index)}, the largest {index.max(initial=0)}"
-            raise InvalidInputError(f"{self.name}: indices: {expected(f'three a triangle, below {count}', got)}")
+        if len(index) % 3 or ((index < 0) | (index >= count)).any():
+            got = f"{len(index)}, from {index.min(initial=0)} to {index.max(initial=0)}"
+            wanted = f"three a triangle, from 0 and below {count}"
+            raise InvalidInputError(f"{self.name}: indices: {expected(wanted, got)}")
         triangles = index.reshape(-1, 3)
         return triangles[:, ::-1] if mirrored else triangles
 

@@ -17,6 +17,8 @@ from emogen_core.errors import InvalidInputError, expected
 from emogen_core.rigs.foreign.files import named_inside
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from numpy.typing import NDArray
 
     Ints = NDArray[np.int64]
@@ -143,15 +145,9 @@ def _polygons(lines: list[bytes], kinds: NDArray[np.bytes_], name: str, counts: 
     rows = np.flatnonzero(kinds == b"f")
     if not counts[0] or not len(rows):
         raise InvalidInputError(f"{name}: expected vertices (v) and faces (f), got {counts[0]} and {len(rows)}")
-    faces = [lines[i].partition(b"#")[0].split()[1:] for i in rows]
+    faces = [_corners(lines[i], name) for i in rows]
     sizes = np.array([len(face) for face in faces])
-    if sizes.min() < 3:
-        raise InvalidInputError(
-            f"{name}: {expected('faces of three corners or more', _text(lines[rows[sizes.argmin()]]))}"
-        )
-    corners = [corner.split(b"/") for corner in chain.from_iterable(faces)]
-    vertex = _indices([corner[0] for corner in corners], name)
-    texture = _indices([(corner[1:2] or [b""])[0] or b"0" for corner in corners], name)
+    vertex, texture = _indices(chain.from_iterable(faces), name)
     part, parts = _parts(lines, kinds, rows)
     return Polygons(
         sizes,
@@ -162,9 +158,20 @@ def _polygons(lines: list[bytes], kinds: NDArray[np.bytes_], name: str, counts: 
     )
 
 
-def _indices(words: list[bytes], name: str) -> Ints:
+def _corners(line: bytes, name: str) -> list[bytes]:
+    """Return the words of a face's corners."""
+    corners = line.partition(b"#")[0].split()[1:]
+    if len(corners) < 3:
+        raise InvalidInputError(f"{name}: {expected('faces of three corners or more', _text(line))}")
+    return corners
+
+
+def _indices(corners: Iterable[bytes], name: str) -> tuple[Ints, Ints]:
+    """Return the vertex and the texture index of every corner as the file counts them, 0 for no texture."""
+    words = [(*corner.split(b"/"), b"")[:2] for corner in corners]
     try:
-        return np.array(words).astype(np.int64)
+        vertex, texture = np.array([(vertex, texture or b"0") for vertex, texture in words]).astype(np.int64).T
+        return vertex, texture
     except (ValueError, OverflowError) as error:
         raise InvalidInputError(f"{name}: expected whole numbers as corners of faces, got: {error}") from error
 

@@ -11,6 +11,8 @@ from emogen_core.rigs.foreign.model import counted
 from emogen_core.rigs.foreign.names import ONE_SIDED, SIDEWAYS, WHOLE, meaning
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from emogen_core.rigs.foreign.mirror import Mirror
     from emogen_core.rigs.foreign.model import Findings, HeadModel
 
@@ -52,25 +54,36 @@ def find_pairs(model: HeadModel, findings: Findings) -> Pairs:
     meanings = {name: meaning(name) for name in model.expressions}
     standard = {name: one.standard for name, one in meanings.items() if one.known}
     called = {one.standard: name for name, one in meanings.items()}
-    gaze = {way: (called[a], called[b]) for way, (a, b) in GAZE.items() if a in called and b in called}
-    mirror = mirrored(model.vertices)
-    sides = _by_name(called)
-    _say_doubts(model, mirror, sides, findings)
-    sides += _by_geometry(model, mirror, {*standard, *(name for pair in sides for name in pair)}, findings)
-    sideways = tuple((called[a], called[b]) for a, b in SIDEWAYS if a in called and b in called)
-    correctives = {
-        called[name]: tuple(called[parent] for parent in parents)
-        for name, parents in CORRECTIVES.items()
-        if name in called and all(parent in called for parent in parents)
-    }
-    pairs = Pairs(tuple(sides), sideways, gaze, correctives, standard)
-    _say(pairs, tuple(model.expressions), called, findings)
+    pairs = Pairs(
+        sides=_sides(model, called, {*standard}, findings),
+        sideways=_both(called, SIDEWAYS),
+        gaze={way: (called[one], called[other]) for way, (one, other) in GAZE.items() if {one, other} <= called.keys()},
+        correctives={
+            called[name]: tuple(called[parent] for parent in parents)
+            for name, parents in CORRECTIVES.items()
+            if {name, *parents} <= called.keys()
+        },
+        standard=standard,
+    )
+    _say_found(pairs, findings)
+    _say_own([name for name in model.expressions if name not in standard], findings)
+    _say_missing(called, findings)
     return pairs
 
 
-def _by_name(called: dict[str, str]) -> list[tuple[str, str]]:
+def _both(called: dict[str, str], asked: Iterable[tuple[str, str]]) -> tuple[tuple[str, str], ...]:
+    """Return what the file calls the pairs of standard names of which it has both."""
+    return tuple((called[one], called[other]) for one, other in asked if {one, other} <= called.keys())
+
+
+def _sides(
+    model: HeadModel, called: dict[str, str], known: set[str], findings: Findings
+) -> tuple[tuple[str, str], ...]:
     lefts = [name for name in called if name.endswith("_L") and not name.startswith(("eyeLookIn", "eyeLookOut"))]
-    return [(called[left], called[f"{left[:-2]}_R"]) for left in lefts if f"{left[:-2]}_R" in called]
+    named = _both(called, [(left, _other(left)) for left in lefts])
+    mirror = mirrored(model.vertices)
+    _say_doubts(model, mirror, named, findings)
+    return (*named, *_by_geometry(model, mirror, known.union(*named), findings))
 
 
 def _by_geometry(model: HeadModel, mirror: Mirror, taken: set[str], findings: Findings) -> list[tuple[str, str]]:
@@ -87,7 +100,7 @@ def _by_geometry(model: HeadModel, mirror: Mirror, taken: set[str], findings: Fi
     return pairs
 
 
-def _say_doubts(model: HeadModel, mirror: Mirror, sides: list[tuple[str, str]], findings: Findings) -> None:
+def _say_doubts(model: HeadModel, mirror: Mirror, sides: tuple[tuple[str, str], ...], findings: Findings) -> None:
     for left, right in sides:
         unlike = mirror.unlike(model.expressions[left], model.expressions[right])
         if unlike > _UNLIKE:
@@ -96,23 +109,27 @@ def _say_doubts(model: HeadModel, mirror: Mirror, sides: list[tuple[str, str]], 
             )
 
 
-def _say(pairs: Pairs, names: tuple[str, ...], called: dict[str, str], findings: Findings) -> None:
+def _say_found(pairs: Pairs, findings: Findings) -> None:
     findings.found.append(f"{len(pairs.sides)} left and right pairs.")
-    if pairs.gaze:
-        findings.found.append(
-            "Eyes look together " + ", ".join(f"{w} ({a}, {b})" for w, (a, b) in pairs.gaze.items()) + "."
-        )
-    for name, parents in pairs.correctives.items():
-        findings.found.append(f"{name} is a corrective of {', '.join(parents)}.")
-    own = [name for name in names if name not in pairs.standard]
-    if own:
-        findings.found.append(f"{len(own)} expressions have names of their own: {counted(own)}.")
-    half = [
-        name for name in called if name[:-2] in ONE_SIDED and name[-2:] in ("_L", "_R") and _other(name) not in called
-    ]
+    gaze = ", ".join(f"{way} ({one}, {other})" for way, (one, other) in pairs.gaze.items())
+    if gaze:
+        findings.found.append(f"Eyes look together {gaze}.")
+    findings.found += [f"{name} is a corrective of {', '.join(of)}." for name, of in pairs.correctives.items()]
+
+
+def _say_own(names: list[str], findings: Findings) -> None:
+    if names:
+        findings.found.append(f"{len(names)} expressions have names of their own: {counted(names)}.")
+
+
+def _say_missing(called: dict[str, str], findings: Findings) -> None:
+    sided = [f"{stem}_{side}" for stem in ONE_SIDED for side in "LR"]
+    half = [called[name] for name in sided if name in called and _other(name) not in called]
     if half:
-        findings.missing.append(f"The other side of {counted([called[name] for name in half])}.")
-    absent = [name for name in (*ONE_SIDED, *WHOLE) if not {name, f"{name}_L", f"{name}_R"} & set(called)]
+        findings.missing.append(f"The other side of {counted(half)}.")
+    # Some movements are one-sided here and whole there.
+    movements = dict.fromkeys((*ONE_SIDED, *WHOLE))
+    absent = [name for name in movements if called.keys().isdisjoint((name, f"{name}_L", f"{name}_R"))]
     if absent:
         findings.missing.append(f"{len(absent)} of ARKit's movements: {counted(absent)}.")
 

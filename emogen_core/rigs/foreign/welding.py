@@ -92,22 +92,25 @@ def joined(name: str, mesh: Welded, targets: Sequence[str]) -> HeadModel:
     Raises:
         InvalidInputError: the vertex numbers of the file leave gaps or are none.
     """
-    count = 1 + max(int(rows.max(initial=-1)) for rows in mesh.rows)
-    used = np.unique(np.concatenate(mesh.rows))
-    if len(used) != count or used[0] != 0:
-        raise InvalidInputError(f"{name}: vertices: {expected(f'all numbers below {count}', len(used))}")
+    count = _count(name, np.concatenate(mesh.rows))
     pieces = [_rowed(piece, rows) for piece, rows in zip(mesh.pieces, mesh.rows, strict=True)]
-    triangles = np.concatenate([piece.triangles for piece in pieces]).astype(np.int32)
-    model = HeadModel(
+    return HeadModel(
         name=name,
         vertices=_spread(mesh, count, [piece.points for piece in pieces]),
-        triangles=triangles,
+        triangles=np.concatenate([piece.triangles for piece in pieces]).astype(np.int32),
         parts=_parts(pieces),
         expressions={target: _offsets(mesh, count, target) for target in targets},
+        uv=_uv(mesh),
     )
-    if all(piece.uv is None for piece in pieces):
-        return model
-    return replace(model, uv=np.concatenate([_corner_uv(p, k) for p, k in zip(mesh.pieces, mesh.rows, strict=True)]))
+
+
+def _count(name: str, rows: NDArray[np.int64]) -> int:
+    """Return how many vertices a model has of which these are all the rows."""
+    used = np.unique(rows)
+    count = int(used[-1]) + 1
+    if used[0] != 0 or len(used) != count:
+        raise InvalidInputError(f"{name}: vertices: {expected(f'all numbers below {count}', len(used))}")
+    return count
 
 
 def _kept(piece: Piece, rows: NDArray[np.int64]) -> NDArray[np.bool_]:
@@ -117,6 +120,13 @@ def _kept(piece: Piece, rows: NDArray[np.int64]) -> NDArray[np.bool_]:
 
 def _rowed(piece: Piece, rows: NDArray[np.int64]) -> Piece:
     return replace(piece, triangles=rows[piece.triangles[_kept(piece, rows)]])
+
+
+def _uv(mesh: Welded) -> NDArray[np.float32]:
+    """Return (T, 3, 2) texture coordinates, 0 in pieces without; (0, 3, 2) where no piece has any."""
+    if all(piece.uv is None for piece in mesh.pieces):
+        return np.zeros((0, 3, 2), np.float32)
+    return np.concatenate([_corner_uv(piece, rows) for piece, rows in zip(mesh.pieces, mesh.rows, strict=True)])
 
 
 def _corner_uv(piece: Piece, rows: NDArray[np.int64]) -> NDArray[np.float32]:

@@ -57,6 +57,7 @@ def noise(results: Results) -> Table:
     return Table(
         "noise", "Noise of the search by complexity of the target", "Table V, figure 18",
         (Column("mean"), Column("sd"), NO_ANSWER), tuple(rows), _on_noise(last, threshold), _why_noise(last, empty),
+        "the targets are rebuilt on another rig than the paper's",
         notes=(
             "Cosine distance of the last best face to the target. The paper rounds the mean of its last two to"
             " 0.2 ± 0.065 and calls it the noise threshold.",
@@ -178,6 +179,7 @@ def pressure(results: Results) -> Table:
                 max(map(abs, gains)) < SAME,
             ),
         ),
+        doubt="the paper tells how its pairs breed in a sentence, of which this is our reading",
         errors=errors,
     )  # fmt: skip
 

@@ -107,6 +107,7 @@ class Table:
         rows: the numbers.
         findings: what the paper found, and whether it holds; none for what the paper does not have.
         why: one sentence: why we think that some of them do not hold, or what a table says that the paper lacks.
+        doubt: the same, said only where some of them do not hold.
         notes: what has to be known to read the numbers, a sentence each.
         errors: label -> (R, generations + 1) cosine distances to the target, for distributions a generation.
         curves: label -> one value a generation.
@@ -122,6 +123,7 @@ class Table:
     rows: tuple[Row, ...]
     findings: tuple[Finding, ...] = ()
     why: str = ""
+    doubt: str = ""
     notes: tuple[str, ...] = ()
     errors: Mapping[str, NDArray[np.float64]] = field(default_factory=dict)
     curves: Mapping[str, NDArray[np.float64]] = field(default_factory=dict)
@@ -145,7 +147,8 @@ class Table:
         held, of = sum(one.holds for one in self.findings), len(self.findings)
         every = "all" if held == of > 2 else "both" if held == of else f"{held} of the {of}"
         counted = f"{every} findings of the paper hold" if of > 1 else f"the paper's finding {_holds(held)}"
-        return f"{self.agreement.capitalize()}: {counted} here{f'; {self.why}' if self.why else ''}."
+        reasons = [one for one in (self.doubt if held < of else "", self.why) if one]
+        return f"{self.agreement.capitalize()}: {'; '.join([f'{counted} here', *reasons])}."
 
     def shown(self, values: Numbers) -> tuple[str, ...]:
         """Return numbers of a row as people read them; what is not there as a dash."""

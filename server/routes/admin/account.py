@@ -13,15 +13,13 @@ from ...services.errors import ForbiddenError, InvalidError, ServiceError, Throt
 from ...services.people.browsers import browser_of
 from ..access import Services
 from ..errors import status_of
-from .desk import SESSION, Me, OwnForm, VisitorForm, begin_session, page, visitor_page
+from .desk import SESSION, STUDIES, Me, OwnForm, VisitorForm, let_in, page, visitor_page
 
 if TYPE_CHECKING:
     from ...services.house import House
     from ...services.people.accounts import SignedIn
 
 router = APIRouter(prefix="/admin", include_in_schema=False)
-
-STUDIES = "/admin/studies"
 
 
 @router.get("", response_model=None)
@@ -46,9 +44,7 @@ async def set_up(request: Request, form: VisitorForm, house: Services) -> Respon
         token = await run(house.accounts.set_up, **given, password=form.get("password", ""))
     except (ForbiddenError, InvalidError) as error:
         return _again(request, house, "setup", error, given)
-    response = RedirectResponse(STUDIES, 303)
-    begin_session(response, token, house.settings)
-    return response
+    return let_in(token, house.settings)
 
 
 @router.get("/login", response_model=None)
@@ -66,9 +62,7 @@ async def login(request: Request, form: VisitorForm, house: Services) -> Respons
         token = await run(house.accounts.sign_in, given["email"], form.get("password", ""), browser)
     except (UnauthorisedError, ThrottledError) as error:
         return _again(request, house, "login", error, given)
-    response = RedirectResponse(STUDIES, 303)
-    begin_session(response, token, house.settings)
-    return response
+    return let_in(token, house.settings)
 
 
 @router.post("/logout", response_model=None)

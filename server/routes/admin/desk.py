@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from fastapi import Depends
 from jinja2 import Environment, FileSystemLoader, StrictUndefined, select_autoescape
 from starlette.requests import Request  # FastAPI reads it at run time
-from starlette.responses import HTMLResponse, Response
+from starlette.responses import HTMLResponse, RedirectResponse, Response
 
 from ...assets import asset
 from ...charts import Markup
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 SESSION = "emogen_session"
 VISITOR = "emogen_visitor"
+STUDIES = "/admin/studies"
 Form = dict[str, str]
 
 _templates = Environment(
@@ -140,8 +141,9 @@ def visitor_page(request: Request, settings: Settings, name: str, status: int = 
     return response
 
 
-def begin_session(response: Response, token: str, settings: Settings) -> None:
-    """Hand a session to the browser."""
+def let_in(token: str, settings: Settings) -> Response:
+    """Hand a new session to the browser, and lead it to the studies."""
+    response = RedirectResponse(STUDIES, 303)
     response.set_cookie(
         SESSION,
         token,
@@ -151,6 +153,7 @@ def begin_session(response: Response, token: str, settings: Settings) -> None:
         httponly=True,
         samesite="lax",
     )
+    return response
 
 
 def check_csrf(form: Form, secret: str) -> None:

@@ -14,7 +14,7 @@ from ...services.studies.life import Status
 from ..access import Services
 from ..errors import status_of
 from . import words
-from .desk import Experimenter, Me, WorkForm, page, study_page
+from .desk import STUDIES, Experimenter, Me, WorkForm, page, study_page
 
 if TYPE_CHECKING:
     from ...services.house import House
@@ -92,7 +92,7 @@ async def delete(study: str, me: Experimenter, form: WorkForm, house: Services) 
         await run(house.removal.delete, study, me.user, me.role, typed=title, erase=erase)
     except (InvalidError, ConflictError) as error:
         return await run(_deletion, study, me, house, error, typed=title, erase=erase)
-    return RedirectResponse("/admin/studies", 303)
+    return RedirectResponse(STUDIES, 303)
 
 
 @router.post("/{study}/copy", response_model=None)

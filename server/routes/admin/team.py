@@ -14,7 +14,7 @@ from ...services.people.browsers import browser_of
 from ...services.people.roles import RIGHTS
 from ..access import Services
 from ..errors import status_of
-from .desk import Owner, OwnerForm, VisitorForm, begin_session, page, visitor_page
+from .desk import Owner, OwnerForm, VisitorForm, let_in, page, visitor_page
 
 if TYPE_CHECKING:
     from ...services.house import House
@@ -90,11 +90,9 @@ async def accept(request: Request, form: VisitorForm, house: Services) -> Respon
             request, house.settings, "invitation", status_of(error), given={"key": key, "name": name},
             invited=invited, problem=error.message, field=error.field,
         )  # fmt: skip
-    response = RedirectResponse("/admin/studies", 303)
     browser = browser_of(request.headers.get("user-agent", ""))
     token = await run(house.accounts.sign_in, invited.email, form.get("password", ""), browser)
-    begin_session(response, token, house.settings)
-    return response
+    return let_in(token, house.settings)
 
 
 def _again(me: SignedIn, house: House, error: ServiceError, given: dict[str, str] | None = None) -> Response:

@@ -6,7 +6,7 @@ import threading
 from typing import TYPE_CHECKING
 
 from ...store import studies
-from ..errors import NotFoundError
+from ..errors import NoStudyError, NotFoundError
 from .study import StudyConfig
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def newest(tx: Tx, study_id: str) -> StudyConfig:
     """
     version = studies.latest_version(tx, study_id)
     if version is None:
-        raise NotFoundError("There is no such study.", field="study", got=study_id)
+        raise NoStudyError(study_id)
     return parsed(version)
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 from ...store import accounts, people, runs, studies
 from ...store.admin_tables import ApiToken
 from ..clock import digest, new_id, new_token, now
-from ..errors import ForbiddenError, NotFoundError, UnauthorisedError
+from ..errors import ForbiddenError, NoStudyError, NotFoundError, UnauthorisedError
 from .accounts import audit
 from .roles import require
 
@@ -70,7 +70,7 @@ class Tokens:
         )
         with self.database.write() as tx:
             if study is not None and studies.study(tx, study) is None:
-                raise NotFoundError("There is no such study.", field="study", got=study)
+                raise NoStudyError(study)
             runs.add(tx, made)
             audit(tx, user, "create token", made.id, label=made.label, scopes=made.scopes)
         return secret

@@ -10,7 +10,7 @@ from ..clock import now
 from ..config import Problem, StudyConfig, mended
 from ..config.difference import changes
 from ..config.stored import parsed
-from ..errors import ConflictError, InvalidError, NotFoundError
+from ..errors import ConflictError, InvalidError, NoStudyError, NotFoundError
 from ..people.accounts import audit
 from .study_rows import LinkKind, new_link, new_version
 
@@ -274,7 +274,7 @@ def _found(tx: Tx, study_id: str, *, lock: bool = False) -> tuple[Study, StudyVe
     study = studies.study(tx, study_id, lock=lock)
     latest = None if study is None else studies.latest_version(tx, study_id)
     if study is None or latest is None:
-        raise NotFoundError("There is no such study.", field="study", got=study_id)
+        raise NoStudyError(study_id)
     return study, latest
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ...store import removal, roster, studies
-from ..errors import ConflictError, ForbiddenError, InvalidError, NotFoundError
+from ..errors import ConflictError, ForbiddenError, InvalidError, NoStudyError
 from ..participation.joining import OPEN
 from ..people.accounts import audit
 from ..people.roles import RIGHTS
@@ -79,7 +79,7 @@ class Removal:
 def _study(tx: Tx, study_id: str, user: str, role: str, *, lock: bool = False) -> Study:
     study = studies.study(tx, study_id, lock=lock)
     if study is None:
-        raise NotFoundError("There is no such study.", field="study", got=study_id)
+        raise NoStudyError(study_id)
     rights = RIGHTS.get(role, frozenset())
     if "rule" not in rights and not ("work" in rights and study.owner_id == user):
         raise ForbiddenError(

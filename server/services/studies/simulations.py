@@ -14,7 +14,7 @@ from ...store import studies
 from ..background import watched
 from ..clock import digest, now
 from ..config.stored import parsed
-from ..errors import ConflictError, InvalidError, NotFoundError, ServiceError
+from ..errors import ConflictError, InvalidError, NoStudyError, ServiceError
 from ..participation.joining import OPEN
 from ..people.accounts import audit
 from ..trials.evolution import params_of
@@ -131,7 +131,7 @@ class Simulations:
             version = studies.latest_version(tx, study_id)
             links = [link.id for link in studies.links(tx, study_id) if link.kind != "personal"]
         if study is None or version is None:
-            raise NotFoundError("There is no such study.", field="study", got=study_id)
+            raise NoStudyError(study_id)
         if study.status not in OPEN:
             raise ConflictError(f"Nobody can join a study that is {study.status}. Start its pilot first.")
         if not links:

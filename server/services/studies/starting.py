@@ -9,7 +9,7 @@ from urllib.parse import urlsplit
 from ...store import studies
 from ..clock import now
 from ..config import StudyConfig
-from ..errors import NotFoundError
+from ..errors import NoStudyError
 from ..participation.joining import OPEN
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ class Starting:
         with self.database.read() as tx:
             version = studies.latest_version(tx, study_id)
             if version is None:
-                raise NotFoundError("There is no such study.", field="study", got=study_id)
+                raise NoStudyError(study_id)
             config, links = StudyConfig.model_validate(version.config), studies.links(tx, study_id)
             here, tried = studies.standing(tx, study_id, now())
         opens = status in OPEN

@@ -13,7 +13,7 @@ from ..clock import now
 from ..config import DEMO, StudyConfig
 from ..config.stored import parsed
 from ..config.way_back import check_redirects
-from ..errors import ConflictError, NotFoundError
+from ..errors import ConflictError, NoStudyError
 from ..participation.joining import OPEN
 from ..people.accounts import audit
 from .fitting import require_fit
@@ -146,7 +146,7 @@ class Studies:
         with self.journal.database.read() as tx:
             study = studies.study(tx, study_id)
             if study is None:
-                raise NotFoundError("There is no such study.", field="study", got=study_id)
+                raise NoStudyError(study_id)
             return _summary(tx, study)
 
     def _demo(self) -> StudyConfig:

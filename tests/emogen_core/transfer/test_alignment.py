@@ -35,6 +35,17 @@ def test_no_similarity_lies_nearer():
         assert ((other - there) ** 2).sum() > least
 
 
+def test_the_way_there_and_back_is_the_same():
+    rng = np.random.default_rng(5)
+    there = moved(head().neutral)[0] + rng.normal(size=head().neutral.shape)
+    found = align(head().neutral, there)
+    assert np.allclose(found.rotation @ found.rotation.T, np.eye(3))
+    shift = rng.normal(size=(7, 3))
+    carried = found.onto_template(there[:7] + found.offsets_back(shift)) - found.onto_template(there[:7])
+    assert np.allclose(carried, shift)
+    assert np.allclose(found.onto_template(there).mean(0), head().neutral.mean(0))
+
+
 def test_a_point_is_no_head():
     with pytest.raises(InvalidInputError, match="expected a head, got 'all vertices in one place'"):
         align(head().neutral, np.ones((625, 3)))

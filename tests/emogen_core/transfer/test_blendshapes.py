@@ -56,6 +56,46 @@ def test_symmetric_heads_have_symmetric_shapes(method):
 
 
 @every
+def test_the_order_of_shapes_and_expressions_does_not_matter(method):
+    neutral, _, training = truth()
+    rng = np.random.default_rng(6)
+    shapes, rows = rng.permutation(len(head().offsets)), rng.permutation(len(training.weights))
+    turned = Training(training.weights[np.ix_(rows, shapes)], training.meshes[rows])
+    found = transfer(replace(head(), offsets=head().offsets[shapes]), neutral, turned, method)
+    assert np.allclose(found, seen(method)[shapes], atol=1e-7)
+
+
+@pytest.mark.parametrize("method", ["copy", "deformation", "examples"])
+def test_the_order_of_triangles_does_not_matter(method):
+    neutral, _, training = truth()
+    order = np.random.default_rng(6).permutation(len(head().triangles))
+    turned = np.roll(head().triangles[order], 1, axis=1)
+    found = transfer(replace(head(), triangles=turned), neutral, training, method)
+    assert np.allclose(found, seen(method), atol=1e-6)
+
+
+@pytest.mark.parametrize("method", ["copy", "warp", "deformation"])
+def test_methods_that_learn_nothing_carry_each_shape_alone(method):
+    alone = transfer(replace(head(), offsets=head().offsets[[3, 30]]), truth()[0], method=method)
+    assert np.allclose(alone, seen(method)[[3, 30]], atol=1e-9)
+
+
+# Deformation transfer is left out: its triangles have normals, which do not grow in proportion.
+@pytest.mark.parametrize("method", ["copy", "warp"])
+def test_half_a_shape_is_half_a_shape_on_another_head(method):
+    half = transfer(replace(head(), offsets=0.5 * head().offsets), truth()[0], method=method)
+    assert np.allclose(half, 0.5 * seen(method), atol=1e-9)
+
+
+@every
+def test_a_shape_that_moves_nothing_moves_nothing_on_another_head(method):
+    still = replace(head(), offsets=np.concatenate([head().offsets, 0 * head().offsets[:1]]))
+    found = transfer(still, truth()[0], method=method)
+    assert np.allclose(found[-1], 0, atol=1e-9)
+    assert np.allclose(found[:-1], transfer(head(), truth()[0], method=method), atol=1e-7)
+
+
+@every
 def test_the_same_call_gives_the_same_bits(method):
     assert np.array_equal(seen(method), seen(method))
 

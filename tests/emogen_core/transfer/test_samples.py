@@ -20,6 +20,11 @@ def test_no_vertex_is_taken_twice():
     assert len(np.unique(spread_samples(head().neutral, 10_000))) == 625
 
 
+def test_samples_do_not_depend_on_where_a_head_lies_or_how_large_it_is():
+    found = spread_samples(2 * head().neutral + [0, 64, -32], 60)
+    assert np.array_equal(found, spread_samples(head().neutral, 60))
+
+
 def test_bells_share_every_vertex_even_far_ones():
     far = np.r_[head().neutral, [[1e4, 0, 0]]]
     shares = bells(far, np.arange(0, 625, 20))

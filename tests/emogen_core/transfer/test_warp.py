@@ -36,13 +36,10 @@ def test_it_is_the_derivative_of_the_spline(monkeypatch):
         assert np.allclose(found[vertex], slope, atol=1e-6)
 
 
-def test_smoothing_bends_less():
+def test_smoothing_bends_less(monkeypatch):
     rng = np.random.default_rng(3)
     target = head().neutral + 3 * rng.normal(size=head().neutral.shape)
     smooth = warp_jacobians(head().neutral, target, SAMPLES)
-    module_smoothing, module._SMOOTHING = module._SMOOTHING, 0.0
-    try:
-        rough = warp_jacobians(head().neutral, target, SAMPLES)
-    finally:
-        module._SMOOTHING = module_smoothing
+    monkeypatch.setattr(module, "_SMOOTHING", 0.0)
+    rough = warp_jacobians(head().neutral, target, SAMPLES)
     assert np.abs(smooth - np.eye(3)).mean() < np.abs(rough - np.eye(3)).mean() / 2

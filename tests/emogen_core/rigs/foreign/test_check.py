@@ -14,8 +14,9 @@ from tests.emogen_core.rigs.foreign.heads import made_head
 head = made_head()
 
 
-def refused(model, why):
-    with pytest.raises(InvalidInputError, match=why) as told:
+def refusal(model):
+    """What is said of a model that is refused."""
+    with pytest.raises(InvalidInputError) as told:
         check_model(model, Findings())
     return str(told.value)
 
@@ -34,17 +35,29 @@ def test_a_good_head_passes():
 
 
 def test_nothing_to_move():
-    refused(replace(head, expressions={}), "got none")
+    assert refusal(replace(head, expressions={})).startswith("made: expected expressions")
+
+
+def test_nothing_to_see():
+    bare = replace(head, triangles=head.triangles[:0], parts={})
+    assert refusal(bare) == "made: expected triangles, got none"
 
 
 @pytest.mark.parametrize("name", ["", "  ", "a\nb", "x" * 65, 7])
 def test_names_that_are_none(name):
-    refused(replace(head, expressions={**head.expressions, name: head.expressions["jawOpen"]}), "1 to 64 letters")
+    named = replace(head, expressions={**head.expressions, name: head.expressions["jawOpen"]})
+    assert refusal(named) == f"names: expected 1 to 64 letters, got {name!r}; name every expression"
+
+
+def test_the_longest_name_is_one():
+    check_model(replace(head, expressions={**head.expressions, "x" * 64: head.expressions["jawOpen"]}), Findings())
 
 
 def test_names_of_which_none_is_known():
     unknown = {f"shape {i}": offsets for i, offsets in enumerate(head.expressions.values())}
-    assert "shape 3" in refused(replace(head, expressions=unknown), "names of ARKit")
+    told = refusal(replace(head, expressions=unknown))
+    assert told.startswith("names: expected names of ARKit")
+    assert "shape 3" in told
     check_model(replace(head, expressions=unknown | {"jawOpen": head.expressions["jawOpen"]}), Findings())
 
 
@@ -53,18 +66,21 @@ def test_numbers_that_are_not_finite(value):
     for field in ("expressions", "identity_modes"):
         values = head.expressions["jawOpen"].copy()
         values[17, 1] = value
-        refused(replace(head, **{field: {**head.expressions, "mine": values}}), "mine: .*vertex 17, and 0 more")
+        told = refusal(replace(head, **{field: {**head.expressions, "mine": values}}))
+        assert told.startswith("mine: expected finite coordinates")
+        assert "at vertex 17, and 0 more" in told
     vertices = head.vertices.copy()
     vertices[[3, 9]] = value
-    refused(replace(head, vertices=vertices), "neutral: .*vertex 3, and 1 more")
+    told = refusal(replace(head, vertices=vertices))
+    assert told.startswith("neutral: expected finite coordinates")
+    assert "at vertex 3, and 1 more" in told
 
 
 @pytest.mark.parametrize("field", ["expressions", "identity_modes"])
 def test_movements_longer_than_the_head(field):
     far = head.expressions["jawOpen"] * np.float32(12.6)
-    refused(
-        replace(head, **{field: {**head.expressions, "mine": far}}), "mine: expected movements shorter .* 250, got 252"
-    )
+    told = refusal(replace(head, **{field: {**head.expressions, "mine": far}}))
+    assert told.startswith("mine: expected movements shorter than the head's 250, got 252;")
     check_model(replace(head, **{field: {**head.expressions, "mine": far / 1.02}}), Findings())
 
 
@@ -74,7 +90,8 @@ def test_edges_of_three_triangles():
         rows[2] = rows[0]
         return rows
 
-    refused(with_triangles("EyeLeft", change), "part EyeLeft: expected edges of one or two triangles, got 3 edges")
+    told = refusal(with_triangles("EyeLeft", change))
+    assert told.startswith("part EyeLeft: expected edges of one or two triangles, got 3 edges")
 
 
 def test_one_triangle_that_faces_the_other_way():
@@ -82,7 +99,8 @@ def test_one_triangle_that_faces_the_other_way():
         rows[5] = rows[5][::-1]
         return rows
 
-    refused(with_triangles("TeethUpper", change), "part TeethUpper: expected neighbours that face the same way, got 3")
+    told = refusal(with_triangles("TeethUpper", change))
+    assert told.startswith("part TeethUpper: expected neighbours that face the same way, got 3 edges")
 
 
 def test_a_triangle_with_a_corner_twice():
@@ -90,12 +108,14 @@ def test_a_triangle_with_a_corner_twice():
         rows[5, 1] = rows[5, 0]
         return rows
 
-    refused(with_triangles("EyeRight", change), "part EyeRight: expected triangles of three vertices, got 1")
+    told = refusal(with_triangles("EyeRight", change))
+    assert told == "part EyeRight: expected triangles of three vertices, got 1 with one twice; mend it"
 
 
 @pytest.mark.parametrize("part", ["Face", "EyeLeft", "TeethLower"])
 def test_a_part_inside_out(part):
-    refused(with_triangles(part, lambda rows: rows[:, ::-1]), f"part {part}: expected its front outside")
+    told = refusal(with_triangles(part, lambda rows: rows[:, ::-1]))
+    assert told.startswith(f"part {part}: expected its front outside")
 
 
 def test_open_skin_is_judged_and_other_open_parts_are_not():
@@ -105,16 +125,26 @@ def test_open_skin_is_judged_and_other_open_parts_are_not():
     keep = np.ones(len(opened), bool)
     keep[first : first + 3] = False
     parts = {"Face": (0, last - 3), **{n: (a - 3, b - 3) for n, (a, b) in head.parts.items() if n != "Face"}}
-    refused(replace(head, triangles=opened[keep], parts=parts), "part Face: expected its front")
+    told = refusal(replace(head, triangles=opened[keep], parts=parts))
+    assert told.startswith("part Face: expected its front outside")
     # The same surface as the lining of a mouth, which rightly faces inwards.
     lining = {"mouth" if name == "Face" else name: rows for name, rows in parts.items()} | {"skin": (0, 0)}
     check_model(replace(head, triangles=opened[keep], parts=lining), Findings())
 
 
-@pytest.mark.parametrize(("limit", "value"), [("MAX_VERTICES", 100), ("MAX_SHAPES", 5)])
-def test_limits(monkeypatch, limit, value):
-    monkeypatch.setattr(check, limit, value)
-    refused(head, f"at most .*{value}")
+@pytest.mark.parametrize(("limit", "what"), [("MAX_VERTICES", "{} vertices"), ("MAX_SHAPES", "vertices and {} shapes")])
+def test_a_head_may_be_as_large_as_the_limits_and_no_larger(monkeypatch, limit, what):
+    size = {"MAX_VERTICES": len(head.vertices), "MAX_SHAPES": len(head.expressions)}[limit]
+    monkeypatch.setattr(check, limit, size)
+    check_model(head, Findings())
+    monkeypatch.setattr(check, limit, size - 1)
+    assert what.format(size - 1) in refusal(head)
+
+
+def test_a_mirror_image_is_inside_out_until_its_triangles_turn():
+    flipped = replace(head, vertices=head.vertices * np.float32([-1, 1, 1]))
+    assert refusal(flipped).startswith("part Face: expected its front outside")
+    check_model(replace(flipped, triangles=head.triangles[:, ::-1]), Findings())
 
 
 def test_what_moves_nothing_is_said():

@@ -242,6 +242,18 @@ def test_numbers_of_vertices_that_leave_gaps_are_refused(read, numbers):
         read(made)
 
 
+@pytest.mark.parametrize("wrong", [-1, 4])
+def test_corners_that_are_no_vertices_are_refused(read, wrong):
+    made = Gltf()
+    primitive = body(made)
+    corners = np.array(SIDES).ravel()
+    corners[5] = wrong
+    primitive["indices"] = made.accessor(corners, "SCALAR", 5120, "<i1")
+    made.mesh(primitive, names=["jawOpen"])
+    with pytest.raises(InvalidInputError, match="indices: expected three a triangle, from 0 and below 4"):
+        read(made)
+
+
 def test_numbers_of_vertices_are_believed(read):
     made = Gltf()
     made.mesh(body(made, attributes={"_VERTEX": made.accessor([3, 2, 1, 0], "SCALAR")}), names=["jawOpen"])

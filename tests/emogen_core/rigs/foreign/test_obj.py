@@ -102,6 +102,7 @@ def test_faces_between_vertices_are_always_parsed():
         (b"\x89PNG\r\n\x1a\n\0\0", "expected vertices"),
         (FACES, "expected vertices"),
         (V + b"f 1 2\n", "three corners"),
+        (FACES[:10] + V + b"f 1 # 2 3\n", "three corners or more, got 'f 1 # 2 3'"),
         (V + b"f 1 2 6\n", "from 1 to 5.*got 6"),
         (V + b"f 1 2 0\n", "got 0"),
         (V + b"f 1 2 -6\n", "got -6"),

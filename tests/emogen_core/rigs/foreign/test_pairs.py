@@ -7,6 +7,7 @@ import pytest
 
 from emogen_core.rigs.foreign.mirror import FLIP, centre_of, mirrored
 from emogen_core.rigs.foreign.model import Findings
+from emogen_core.rigs.foreign.names import ONE_SIDED, WHOLE
 from emogen_core.rigs.foreign.pairs import find_pairs
 from tests.emogen_core.rigs.foreign.heads import made_head
 
@@ -58,6 +59,45 @@ def test_half_a_pair_is_missing_its_other():
     findings = Findings()
     find_pairs(replace(head, expressions=expressions), findings)
     assert "The other side of mouthSmile_L." in findings.missing
+
+
+def test_a_movement_with_and_without_sides_is_missing_once():
+    findings = Findings()
+    find_pairs(replace(head, expressions={"jawOpen": head.expressions["jawOpen"]}), findings)
+    known = {*ONE_SIDED, *WHOLE} - {"jawOpen"}
+    assert f"{len(known)} of ARKit's movements: browDown, browInnerUp, " in findings.missing[-1]
+
+
+@pytest.mark.parametrize("name", ["cheekPuff", "cheekPuff_L", "cheekPuffRight"])
+def test_a_movement_is_there_with_sides_or_without(name):
+    told = Findings(), Findings()
+    for findings, more in zip(told, ({}, {name: head.expressions["jawOpen"]}), strict=True):
+        find_pairs(replace(head, expressions={**head.expressions, **more}), findings)
+    without, there = (int(findings.missing[-1].split()[0]) for findings in told)
+    assert there == without - 1
+
+
+def test_nobody_is_in_two_pairs_and_the_left_stands_first():
+    lettered = {name: f"shape {i}" for i, name in enumerate(n for n in head.expressions if n != "jawOpen")}
+    pairs = pairs_of(lettered)
+    named = [name for pair in pairs.sides for name in pair]
+    assert len(named) == len(set(named)) == 10
+    original = {new: old for old, new in lettered.items()}
+    for left, right in pairs.sides:
+        moved = {"L": head.expressions[original[left]], "R": head.expressions[original[right]]}
+        assert centre_of(head.vertices, moved["L"])[0] > 0 > centre_of(head.vertices, moved["R"])[0]
+
+
+def test_the_order_of_a_file_does_not_matter():
+    turned = replace(head, expressions=dict(reversed(head.expressions.items())))
+    forth, back = find_pairs(head, Findings()), find_pairs(turned, Findings())
+    assert set(back.sides) == set(forth.sides)
+    assert (back.gaze, back.correctives, back.standard) == (forth.gaze, forth.correctives, forth.standard)
+
+
+def test_the_pair_of_a_gaze_needs_both_eyes():
+    pairs = pairs_of({"eyeLookIn_R": "squint"})
+    assert pairs.gaze == {"right": ("eyeLookIn_L", "eyeLookOut_R")}
 
 
 def test_a_corrective_without_what_it_corrects_is_none():

@@ -23,6 +23,7 @@ def test_every_table_is_made_on_any_rig():
         assert all(len(row.ours) == len(table.columns) for row in table.rows), table.name
         assert all(len(row.paper) <= len(table.columns) for row in table.rows), table.name
         assert table.verdict.endswith(".")
+        assert table.agreement == "new" or table.doubt or table.why, f"{table.name} gives no reason where it differs"
         assert (table.agreement == "new") == (table.source == "")
         assert all(np.isfinite([one for one in row.ours if one is not None]).all() for row in table.rows)
         assert all(np.isfinite(one).all() for one in table.errors.values())

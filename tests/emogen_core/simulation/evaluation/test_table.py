@@ -6,9 +6,9 @@ import pytest
 from emogen_core.simulation.evaluation.table import Cluster, Column, Finding, Row, Table
 
 
-def table(*holds, why=""):
+def table(*holds, why="", doubt=""):
     findings = tuple(Finding("It falls.", "It does.", one) for one in holds)
-    return Table("noise", "Noise", "Table V", (Column("mean"), Column("n", 0)), (), findings, why)
+    return Table("noise", "Noise", "Table V", (Column("mean"), Column("n", 0)), (), findings, why, doubt)
 
 
 @pytest.mark.parametrize(
@@ -33,6 +33,10 @@ def test_the_verdict_is_one_sentence_with_its_reason():
     assert table(False).verdict == "Does not agree: the paper's finding does not hold here."
     assert table(True, True, True).verdict == "Agrees: all findings of the paper hold here."
     assert table(True, True).verdict == "Agrees: both findings of the paper hold here."
+    assert table(True, doubt="we drew it").verdict == "Agrees: the paper's finding holds here."
+    assert table(False, why="but it rains", doubt="we drew it").verdict == (
+        "Does not agree: the paper's finding does not hold here; we drew it; but it rains."
+    )
     assert table(why="A search ends near.").verdict == "A search ends near."
 
 
