@@ -30,7 +30,7 @@ from ..services.faces.correction import Correction
 from ..services.faces.drawing import PoolDrawer
 from ..services.faces.tailor import HouseTailor
 from ..services.faces.wardrobe import Wardrobe
-from ..services.participation.sound_export import SoundExport
+from ..services.reports.tables.sound_export import SoundExport
 from .common import made_folder, plainly, progress, stop, unwritable
 from .threshold import Seed
 

@@ -20,7 +20,7 @@ from ..services.faces.wardrobe import Wardrobe
 from ..services.participation.replay.exported import ExportReplay
 from ..services.participation.replay.portraits import Album, Which
 from ..services.participation.replay.recorded import Replayed
-from ..services.participation.sound_export import SoundExport
+from ..services.reports.tables.sound_export import SoundExport
 from .common import made_folder, plainly, progress, stop, unwritable
 
 if TYPE_CHECKING:

@@ -5,8 +5,8 @@ import json
 import shutil
 
 from server.services.participation.replay.exported import ExportReplay
-from server.services.participation.sound_export import SoundExport
 from server.services.reports.tables.package import write_folder
+from server.services.reports.tables.sound_export import SoundExport
 
 
 def exported(house, study, folder, form="jsonl"):

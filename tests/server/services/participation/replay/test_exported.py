@@ -7,9 +7,9 @@ import pytest
 
 from emogen_client import IncompleteError
 from server.services.errors import InvalidError, NotFoundError
-from server.services.participation.sound_export import SoundExport
 from server.services.reports.tables.package import write_folder
 from server.services.reports.tables.selection import Filters
+from server.services.reports.tables.sound_export import SoundExport
 from tests.conftest import BOTH, small_study
 from tests.server.services.participation.replay.exports import exported, replayed, tampered
 from tests.server.walker import Walker

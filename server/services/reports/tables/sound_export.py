@@ -10,15 +10,15 @@ import pyarrow.compute as pc
 
 from emogen_client import Export
 
-from ..errors import InvalidError
-from ..reports.tables.columns import TABLES, TRIAL, WHO
+from ...errors import InvalidError
+from .columns import TABLES, TRIAL, WHO
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
     import pyarrow as pa
 
-    from ..reports.tables.column import Column
+    from .column import Column
 
     Said = tuple[Any, ...]
 
