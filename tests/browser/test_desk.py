@@ -80,6 +80,16 @@ def test_somebody_invited_makes_an_account_and_looks(desk, browser):
     context.close()
 
 
+def test_whoever_is_not_let_in_reads_an_accessible_page(desk, browser):
+    stage, signed_in = desk
+    out, within = browser.new_page(), browser.new_page(storage_state=signed_in)
+    for page, path, status in ((out, "login", 200), (out, "invitation?key=none", 404), (within, "studies/none", 404)):
+        assert page.goto(f"{stage.address}/admin/{path}").status == status
+        must_be_accessible(page)
+    out.close()
+    within.close()
+
+
 def test_a_new_study_link_joins_and_its_address_is_copied(desk, browser):
     stage, signed_in = desk
     study = stage.one("SELECT id FROM studies")

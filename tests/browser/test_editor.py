@@ -224,3 +224,7 @@ def test_it_fits_and_axe_has_no_complaint(desk, enter, width):
         page.goto(f"{desk.address}/admin/studies/{path}")
         must_be_accessible(page)
         assert page.evaluate("document.documentElement.scrollWidth") <= width
+    page.get_by_label("Or its text").fill("title: X\ngenerations: 99\nemotions: []")
+    page.get_by_role("button", name="Import as a draft").click()
+    page.get_by_role("heading", name="Everything that is wrong").wait_for()
+    must_be_accessible(page)

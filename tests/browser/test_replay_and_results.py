@@ -158,6 +158,8 @@ def test_pages_are_accessible_and_fit(filled, open_page, number, size):
     page = open_page(f"{base}{paths[0]}", viewport=size)
     for path in paths:
         page.goto(f"{base}{path}")
+        for summary in page.locator(".numbers > summary").all():
+            summary.click()
         must_be_accessible(page)
         assert page.evaluate("document.documentElement.scrollWidth") <= size["width"], path
     page.goto(f"{stage.address}/admin/find?q=P-0001")
