@@ -289,15 +289,17 @@ def _check_labels(labels: Sequence[str]) -> None:
 
 
 def _check_new(labels: Sequence[str], known: Sequence[str]) -> None:
-    """Refuse a label that an open link has: whoever reads the list could not tell them apart."""
-    seen = set(known)
-    for label in labels:
-        if label in seen:
-            raise InvalidError(
-                f"There is an open link with the label {label}. Give every link its own.", field="labels",
-                expected="different labels", got=label,
-            )  # fmt: skip
-        seen.add(label)
+    """Refuse a label that an open link or another new one has: whoever reads the list could not tell them apart."""
+    taken = next((label for label in labels if label in known), None)
+    if taken is not None:
+        raise _label(f"There is an open link with the label {taken}.", taken)
+    twice = next((label for at, label in enumerate(labels) if label in labels[:at]), None)
+    if twice is not None:
+        raise _label(f"The label {twice} is in the list twice.", twice)
+
+
+def _label(what: str, got: str) -> InvalidError:
+    return InvalidError(f"{what} Give every link its own.", field="labels", expected="different labels", got=got)
 
 
 def _one_of(field: str, got: str | None, known: Sequence[str]) -> None:

@@ -38,10 +38,11 @@ def test_personal_links_are_made_listed_downloaded_and_closed(owner, house, stud
 
 def test_two_links_never_have_one_label(owner, house, study, path):  # noqa: F811
     page = f"{path}/recruit"
-    for labels in ("P 1\nP 1", "P 1\nGeneral link"):
+    there, twice = "There is an open link with the label General link.", "The label P 1 is in the list twice."
+    for labels, told in (("P 1\nP 1", twice), ("P 1\nGeneral link", there)):
         refused = post(owner, f"{path}/links", page=page, kind="personal", labels=labels)
         assert refused.status_code == 422
-        assert "There is an open link with the label" in refused.text
+        assert told in refused.text
     assert len(house.recruiting.way(study.id).links) == 1
     post(owner, f"{path}/links/{study.links[0]}/close", page=page)
     assert post(owner, f"{path}/links", page=page, kind="personal", labels="General link").status_code == 303
