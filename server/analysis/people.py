@@ -121,6 +121,8 @@ def _ranges(found: Sequence[tuple[Cell, str, Interval]]) -> tuple[str, ...]:
         if told.mean is not None and told.low is not None:
             means.setdefault(name, []).append(told.mean)
     ranges = "; ".join(f"{name} {span(values, 2)}" for name, values in means.items())
+    if not found:
+        return ()
     if not ranges:
         return ("No mean of a measure of search is told: too few people.",)
     return (f"Means of the measures of search, by cell: {ranges} (process.csv).",)
