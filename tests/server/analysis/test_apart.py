@@ -104,8 +104,11 @@ def test_emotions_with_different_faces_are_further_apart_than_people_with_one():
 
 
 def test_the_text_counts_pairs_of_cells_and_those_of_which_nothing_is_told():
-    parts = [made(template(at), people, emotion=f"e{at}", identity=head, name=head)
-             for head in ("female", "male") for at, people in enumerate((6, 6, 3))]  # fmt: skip
+    parts = [
+        made(template(at + more * at), people, emotion=f"e{at}", identity=head, name=head)
+        for more, head in enumerate(("female", "male"))
+        for at, people in enumerate((6, 6, 3))
+    ]
     section = between(context(*parts))
     told = [row["mean"] for row in rows(section) if row["low"] is not None]
     assert len(told) == 2

@@ -38,4 +38,4 @@ def test_people_read_the_name_and_tables_have_what_the_export_has():
     assert told.label(cell) == "happy, Somebody, b"
     assert {row["head"] for row in rows(means(told))} == {"female", ONE}
     assert [one.label for one in compared(told)] == ["happy, female", "happy, Somebody"]
-    assert [panel.title for figure in plane(told).figures for panel in figure.panels] == ["female", "Somebody"]
+    assert [panel.name for figure in plane(told).figures for panel in figure.panels] == ["female", "Somebody"]
