@@ -121,7 +121,8 @@ def differences(context: Context) -> Section:
     """Return where two mean faces differ: of two conditions, or of two emotions where there are no conditions."""
     pairs = _pairs(context)
     rows = tuple((two.label, two.identity, *two.names, distance) for two, distance in pairs)
-    drawn = sorted(pairs, key=lambda pair: -pair[1])[:SHOWN]
+    greatest = sorted(range(len(pairs)), key=lambda at: -pairs[at][1])[:SHOWN]
+    drawn = [pairs[at] for at in sorted(greatest)]
     studio = context.studio
     notes = (f"The {SHOWN} greatest of {len(pairs)} are drawn.",) if len(pairs) > SHOWN else ()
     return Section(

@@ -75,14 +75,14 @@ def _told(context: Context) -> tuple[str, ...]:
 
 
 def _alike(context: Context) -> tuple[str, ...]:
-    """Return of which cells all faces are the same: their intervals have no width, and tell nothing of others."""
+    """Return of which cells all faces are the same: there is no interval of what does not vary."""
     same = [cell for cell, faces in context.cells if faces.person_count > 1 and not np.ptp(faces.weights, axis=0).any()]
     if not same:
         return ()
     named = "" if len(same) > NAMED else f" ({'; '.join(map(context.label, same))})"
     return (
-        f"In {len(same)} of {counted(len(context.cells), 'cell')}{named} all faces are the same, so that an interval"
-        " without width says nothing about other people.",
+        f"In {len(same)} of {counted(len(context.cells), 'cell')}{named} all faces are the same; how far those of"
+        " other people may be cannot be said.",
     )
 
 

@@ -35,10 +35,14 @@ def filters(manifest: Mapping[str, Any]) -> dict[str, str]:
 def restricted(told: Mapping[str, str]) -> str:
     """Return what that is in words; nothing where nothing was left out."""
     words = [
-        KINDS.get(value, value) if name == "kind" else WORDS.get(name, f"{name} {{}}").format(value)
+        KINDS.get(value, value) if name == "kind" else WORDS.get(name, f"{name} {{}}").format(_utc(value))
         for name, value in told.items()
     ]
     return listed(words) if words else ""
+
+
+def _utc(value: str) -> str:
+    return f"{value.removesuffix('+00:00')} UTC" if value.endswith(":00+00:00") else value
 
 
 def unchecked(told: Mapping[str, str], studies: Iterable[StudyConfig]) -> bool:

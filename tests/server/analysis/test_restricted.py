@@ -21,8 +21,8 @@ def test_every_filter_has_words_with_its_value():
     }  # fmt: skip
     assert set(told) == set(Filters.__dataclass_fields__), "a filter without words"
     assert restricted(filters({"filters": told, "since": "abc"})) == (
-        "the condition “alone”, people of the pilot phase, arrivals from 2026-03-01 00:00:00+00:00 on, arrivals before"
-        " 2026-04-01 00:00:00+00:00, trials of the block “first”, trials of the emotion “angry” and participations"
+        "the condition “alone”, people of the pilot phase, arrivals from 2026-03-01 00:00:00 UTC on, arrivals before"
+        " 2026-04-01 00:00:00 UTC, trials of the block “first”, trials of the emotion “angry” and participations"
         " that came or changed since an earlier export"
     )
 
