@@ -23,7 +23,7 @@ MOST_AT_ONCE = 64
 """Participations of a page, which is read in one short transaction and is all that is in memory."""
 
 ROWS_AT_ONCE = 512
-"""Rows that are text at the same time: 4 MB of faces, which stay near the processor while they are hashed and packed."""
+"""Rows that are text at the same time: 4 MB of faces, which stay near the processor while they are packed."""
 
 
 @dataclass(slots=True)
