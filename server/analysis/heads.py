@@ -72,7 +72,7 @@ def _agreed(found: Agreement) -> str:
     if found.lacks:
         few = found.lacks.what == PERMUTATIONS and not found.lacks.alike
         return f"{told} (no test: {'too few emotions and heads' if few else found.lacks.reason})."
-    return f"{told} (permutation of emotions, {p_is(found.p)})."
+    return f"{told} (permutation of emotions, {p_is(found.p or 0)})."
 
 
 def _effects(found: Sequence[tuple[str, HeadEffect]]) -> tuple[str, ...]:
