@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, Protocol, TypeVar
 
 import numpy as np
 from scipy import stats
 
 from emogen_core.analysis.distances import unit
-from emogen_core.analysis.enough import ALPHA, PERMUTATIONS, Lacking, Result, too_few
+from emogen_core.analysis.enough import VALUES, VARIETY, Result, too_few, untestable
 from emogen_core.analysis.groups import grouped
-from emogen_core.analysis.permutation import RESAMPLES, paired_t, shuffled, shuffled_mean, welch_t
+from emogen_core.analysis.permutation import RESAMPLES, best, paired_t, shuffled, shuffled_mean, welch_t
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -25,8 +25,17 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
     Places = NDArray[np.intp]
 
+Key = TypeVar("Key")
 Over = Literal["max", "sum"]
 """How the statistics of all pairs of groups become one: the greatest, or the sum."""
+
+
+class HasP(Protocol):
+    """A test."""
+
+    @property
+    def p(self) -> float | None:
+        """Its p; None where it could not show anything."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,13 +151,13 @@ def tested(people: Groups, statistic: Statistic, rng: np.random.Generator, over:
     return _told(told, people, shuffled(people, with_one, rng, resamples))
 
 
-def controlled(comparisons: Mapping[str, Comparison]) -> dict[str, float]:
+def controlled(tests: Mapping[Key, HasP]) -> dict[Key, float]:
     """Return the p of tests of one question, such as one an emotion, adjusted for false discoveries.
 
     By Benjamini and Hochberg 1995: of the tests whose adjusted p is at most .05, at most one in twenty is expected to
     be of no difference. Tests without p are left out of it.
     """
-    there = {name: one.p for name, one in comparisons.items() if one.p is not None}
+    there = {name: one.p for name, one in tests.items() if one.p is not None}
     if not there:
         return {}
     return dict(zip(there, stats.false_discovery_control(list(there.values()), method="bh").tolist(), strict=True))
@@ -158,7 +167,9 @@ def _told(comparison: Comparison, people: Groups, found: Shuffled) -> Comparison
     """Return a comparison with its numbers; the last column found is the test, the one before it the maximum."""
     null, observed = found.null[:, -1], float(found.observed[-1])
     least = float(found.least[-1])
-    lacks = Lacking(PERMUTATIONS, 1 / ALPHA, 1 / least) if least > ALPHA else None
+    varied = bool(np.ptp(people.values, axis=0).max() > 1e-12)
+    what = VARIETY if people.values.ndim > 1 else VALUES
+    lacks = untestable(least, best(people.design, people.sizes), varied, what)
     sd = float(null.std())
     adjusted = found.beyond(found.null[:, -2])
     pairs = [

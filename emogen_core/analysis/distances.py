@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 from scipy import stats
 
-from emogen_core.analysis.enough import Result, too_few
+from emogen_core.analysis.enough import DISTANCES, Result, too_few
 from emogen_core.analysis.recorded import shares
 from emogen_core.analysis.resampling import pair_mean, people_interval, strata
 
@@ -49,7 +49,7 @@ class Distances(Result):
     Attributes:
         people, pairs: how many.
         mean, sd: of the pairs; None without pairs, no sd with one.
-        low, high: 95 % interval of the mean, by resampling people; None with too few people.
+        low, high: 95 % interval of the mean, by resampling people; None with too few people, or where all are the same.
     """
 
     people: int
@@ -155,7 +155,7 @@ def _distances(table: Floats, pairs: Mask, groups: Mask, rng: np.random.Generato
     """Return mean and interval; too few people are those of the smaller of (g, P) groups."""
     values, fewest = table[pairs], min(int(group.sum()) for group in groups)
     told = Distances(
-        people=len(table), pairs=len(values), lacks=too_few(fewest),
+        people=len(table), pairs=len(values), lacks=too_few(fewest) or too_few(1 + varied(values), 2, DISTANCES),
         mean=float(values.mean()) if len(values) else None,
         sd=float(values.std(ddof=1)) if len(values) > 1 else None,
     )  # fmt: skip
@@ -163,6 +163,11 @@ def _distances(table: Floats, pairs: Mask, groups: Mask, rng: np.random.Generato
         return told
     low, high = people_interval(pair_mean(table, pairs), strata(*groups), rng)
     return Distances(people=told.people, pairs=told.pairs, mean=told.mean, sd=told.sd, low=low, high=high)
+
+
+def varied(values: NDArray[np.floating]) -> bool:
+    """Return whether any of some numbers differ, but for rounding."""
+    return bool(values.size and np.ptp(values) > 1e-12)
 
 
 def beside(distances: Distances, noise: Noise) -> Beside:

@@ -30,8 +30,8 @@ class Effect(Result):
 
     Attributes:
         difference: of the means, the second from the first, in the unit of the values.
-        g: in standard deviations; None where nobody differs or groups have fewer than two people.
-        low, high: 95 % interval of g; None with too few people.
+        g: in standard deviations; None with it where there is no interval, since it could be any by chance.
+        low, high: 95 % interval of g; None with too few people or where nobody differs.
     """
 
     difference: float | None
@@ -50,11 +50,11 @@ def effect(people: Groups) -> Effect:
     sd = float((people.of(0) - people.of(1)).std(ddof=1)) if within else _pooled(people)
     if sd < 1e-12:
         return Effect(difference=difference, lacks=too_few(1, 2, VARIETY))
-    freedom = fewest - 1 if within else sum(people.sizes) - 2
-    g = (1 - 3 / (4 * freedom - 1)) * difference / sd
     lacks = too_few(fewest)
     if lacks:
-        return Effect(difference=difference, g=g, lacks=lacks)
+        return Effect(difference=difference, lacks=lacks)
+    freedom = fewest - 1 if within else sum(people.sizes) - 2
+    g = (1 - 3 / (4 * freedom - 1)) * difference / sd
     half = float(ndtri((1 + LEVEL) / 2)) * _error(people, g)
     return Effect(difference=difference, g=g, low=g - half, high=g + half)
 

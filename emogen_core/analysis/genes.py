@@ -9,9 +9,9 @@ import numpy as np
 from scipy import stats
 
 from emogen_core.analysis.effects import Effect, effect
-from emogen_core.analysis.enough import ALPHA, PERMUTATIONS, Lacking, Result, too_few
+from emogen_core.analysis.enough import ALPHA, VARIETY, Result, too_few, untestable
 from emogen_core.analysis.groups import grouped
-from emogen_core.analysis.permutation import RESAMPLES, ratio, shuffled
+from emogen_core.analysis.permutation import RESAMPLES, best, ratio, shuffled
 from emogen_core.analysis.resampling import counts
 
 if TYPE_CHECKING:
@@ -79,13 +79,14 @@ def gene_differences(
     still = tuple(np.flatnonzero(~varied).tolist()) if not lacks else ()
     told = GeneDifferences(design=people.design, sizes=people.sizes, left_out=people.left_out, still=still, lacks=lacks)
     if lacks or not varied.any():
-        return told
+        return told if lacks else replace(told, lacks=too_few(1, 2, VARIETY))
     found = shuffled(people, _statistic(people.replaced(people.values[:, varied])), rng, resamples)
     able = found.least <= ALPHA
     genes = np.flatnonzero(varied)
     told = replace(told, rare=tuple(genes[~able].tolist()))
     if not able.any():
-        return replace(told, lacks=Lacking(PERMUTATIONS, 1 / ALPHA, float(1 / found.least.min())))
+        least = float(found.least.min())
+        return replace(told, lacks=untestable(least, best(people.design, people.sizes), varied=True))
     p = found.p[able]
     lines = zip(genes[able].tolist(), p.tolist(), stats.false_discovery_control(p, method="bh").tolist(), strict=True)
     return replace(

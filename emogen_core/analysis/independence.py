@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import stats
 
-from emogen_core.analysis.distances import cosine_matrix
-from emogen_core.analysis.enough import ALPHA, PERMUTATIONS, Lacking, Result, too_few
+from emogen_core.analysis.distances import cosine_matrix, varied
+from emogen_core.analysis.enough import DISTANCES, Result, too_few, untestable
 from emogen_core.analysis.permutation import RESAMPLES
 from emogen_core.analysis.recorded import by_person
 from emogen_core.analysis.resampling import pair_mean, people_interval, strata
@@ -42,8 +42,9 @@ class Agreement(Result):
         emotions, identities: which there are; emotions that some head does not have are left out.
         same: mean cosine distance of mean faces of one emotion on two heads.
         other: of two emotions on two heads.
-        identified: share of mean faces to which, on another head, that of the same emotion is the nearest; by chance
-            1 / emotions.
+        identified: share of mean faces to which, on another head, that of the same emotion is the nearest; of those
+            equally near, each counts its share. By chance 1 / emotions.
+        tied: share of mean faces to which, on another head, several are equally near.
         p: of a distance `same` as small by chance; None where it could not show anything.
         permutations, exact: how many shufflings, and whether these are all.
     """
@@ -53,6 +54,7 @@ class Agreement(Result):
     same: float | None = None
     other: float | None = None
     identified: float | None = None
+    tied: float | None = None
     p: float | None = None
     permutations: int = 0
     exact: bool = False
@@ -123,18 +125,27 @@ def _agreed(told: Agreement, tables: Floats, rng: np.random.Generator, resamples
     null, exact = np.asarray(found.null_distribution), math.factorial(emotions) ** (heads - 1) <= resamples
     least = float((null == null.min()).mean()) if exact else 1 / (len(null) + 1)
     every = np.stack([tables[i, j] for i, j in pairs])
-    lacks = Lacking(PERMUTATIONS, 1 / ALPHA, 1 / least) if least > ALPHA else None
+    lacks = untestable(least, 1 / math.factorial(emotions) ** (heads - 1), varied(every), DISTANCES)
+    identified, tied = _identified(every)
     return replace(
         told, same=float(found.statistic), other=float(every[:, ~np.eye(emotions, dtype=bool)].mean()),
-        identified=_identified(every), p=None if lacks else float(found.pvalue), permutations=len(null), exact=exact,
+        identified=identified, tied=tied, p=None if lacks else float(found.pvalue), permutations=len(null), exact=exact,
         lacks=lacks,
     )  # fmt: skip
 
 
-def _identified(tables: Floats) -> float:
-    """Return how often the nearest mean face on another head is that of the same emotion, both ways."""
-    emotions = np.arange(tables.shape[-1])
-    return float(np.mean([(tables.argmin(axis) == emotions).mean() for axis in (1, 2)]))
+def _identified(tables: Floats) -> tuple[float, float]:
+    """Return how often the nearest mean face on another head is that of the same emotion, and how often several are.
+
+    Both ways; distances that differ by rounding alone are equal.
+    """
+    shares, ties = [], []
+    for away in (np.round(tables, 9), np.round(tables.transpose(0, 2, 1), 9)):
+        nearest = away == away.min(-1, keepdims=True)
+        count = nearest.sum(-1)
+        shares.append(np.diagonal(nearest, axis1=-2, axis2=-1) / count)
+        ties.append(count > 1)
+    return float(np.mean(shares)), float(np.mean(ties))
 
 
 def head_effect(faces: Faces, rng: np.random.Generator) -> HeadEffect:
@@ -151,6 +162,7 @@ def head_effect(faces: Faces, rng: np.random.Generator) -> HeadEffect:
     told = HeadEffect(people=faces.person_count, same_head=same_head, other_head=other_head)
     heads = _people_of_heads(faces)
     lacks = too_few(len(heads), 2, IDENTITIES) or too_few(int(heads.sum(1).min()))
+    lacks = lacks or too_few(1 + varied(apart), 2, DISTANCES)
     if lacks:
         return replace(told, lacks=lacks)
     one, other = (pair_mean(*table) for table in tables)

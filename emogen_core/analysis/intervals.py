@@ -19,7 +19,7 @@ LEVEL = 0.95
 
 @dataclass(frozen=True, slots=True)
 class Interval:
-    """A mean of ``count`` values and its interval; with fewer than two values there is no interval."""
+    """A mean of ``count`` values and its interval; there is none of fewer than two values or of equal ones."""
 
     count: int
     mean: float | None
@@ -39,7 +39,7 @@ def mean_interval(values: NDArray[np.floating]) -> Interval:
     if not count:
         return Interval(0, None, None, None)
     mean = float(there.mean())
-    if count < 2:
+    if count < 2 or np.ptp(there) < 1e-12:  # values that are all the same do not tell how far others may be
         return Interval(count, mean, None, None)
     half = float(stdtrit(count - 1, (1 + LEVEL) / 2) * there.std(ddof=1) / np.sqrt(count))
     return Interval(count, mean, mean - half, mean + half)

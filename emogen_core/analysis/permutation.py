@@ -101,6 +101,15 @@ def count(design: Design, sizes: Sequence[int]) -> int:
     return math.factorial(sum(sizes)) // same
 
 
+def best(design: Design, sizes: Sequence[int]) -> float:
+    """Return the smallest p that a symmetric statistic can have if all people differ.
+
+    Shufflings that only exchange whole groups of one size have the same statistic.
+    """
+    alike = [len(sizes)] if design == "within" else [sizes.count(one) for one in set(sizes)]
+    return math.prod(map(math.factorial, alike)) / count(design, sizes)
+
+
 def pairing_p(
     table: Floats, alternative: Alternative, rng: np.random.Generator, resamples: int = RESAMPLES
 ) -> tuple[float, int, bool]:

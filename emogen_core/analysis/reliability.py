@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import stats
 
-from emogen_core.analysis.distances import Noise, Share, cosine_matrix, share_beyond
-from emogen_core.analysis.enough import Result, too_few
+from emogen_core.analysis.distances import Noise, Share, cosine_matrix, share_beyond, varied
+from emogen_core.analysis.enough import DISTANCES, Result, too_few
 from emogen_core.analysis.intervals import Interval, mean_interval
 from emogen_core.analysis.permutation import RESAMPLES, pairing_p
 from emogen_core.analysis.recorded import by_person
@@ -107,7 +107,8 @@ def reliability(
     """
     table = pairs.distances
     count, own = len(table), np.diag(table)
-    lacks, mean = too_few(count), float(own.mean()) if count else None
+    lacks = too_few(count) or too_few(1 + varied(table), 2, DISTANCES)
+    mean = float(own.mean()) if count else None
     beyond = None if noise is None else share_beyond(own, noise)
     excess = None if noise is None or mean is None else mean - noise.mean
     if lacks:

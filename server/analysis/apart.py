@@ -70,7 +70,7 @@ def within(context: Context) -> Section:
             "Distances are cosine distances of blendshape weights; intervals draw participants, not pairs"
             " (bias-corrected and accelerated bootstrap, 1,999 draws).",
             *_told(context, [one for one in found if one.faithful.enough]),
-            *untold(sum(not one.faithful.enough for one in found), len(found), "interval of distances"),
+            *untold([one.faithful for one in found], "interval of distances"),
         ),
     )  # fmt: skip
 
@@ -125,17 +125,24 @@ def between(context: Context) -> Section:
         (*context.key(cell), other.emotion, one.people, one.pairs, one.mean, one.sd, one.low, one.high)
         for cell, other, one in found
     )
-    told = [one.mean for _, _, one in found if one.enough]
     return Section(
-        "between", "How far apart are emotions?",
+        "between",
+        "How far apart are emotions?",
         "Distances of one person's face for an emotion to another person's face for another emotion, on one head and in"
         " one condition. Hold them against the distances within both emotions.",
         Sheet("between", (*context.key_columns, *columns), rows),
         lacks=lacking(
             ((f"{context.label(cell)} and {other.emotion}", one) for cell, other, one in found), "an interval"
         ),
-        methods=(
-            f"Faces of different participants for different emotions were {span(told)} apart (mean cosine distances of"
-            f" {counted(len(told), 'pair')} of emotions; between.csv).",
-        ) if told else ("No distance between emotions is told: too few people.",) if found else (),
-    )  # fmt: skip
+        methods=_emotions([one for _, _, one in found]),
+    )
+
+
+def _emotions(found: Sequence[Distances]) -> tuple[str, ...]:
+    """Return how far apart emotions are, and of which pairs that is not told."""
+    told = [one.mean for one in found if one.enough]
+    apart = (
+        f"On one head and in one condition, faces of different participants for different emotions were {span(told)}"
+        f" apart (mean cosine distances of {counted(len(told), 'pair of cells')}; between.csv).",
+    ) if told else ()  # fmt: skip
+    return (*apart, *untold(found, "distance of two emotions", "pair of cells"))

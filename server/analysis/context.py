@@ -10,12 +10,13 @@ import numpy as np
 
 from emogen_core.analysis.cells import summaries
 
+from .head_names import head_names
 from .section import Column
 from .simulated import group
 from .telling import lacking
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     from emogen_core.analysis.cells import Corrected, Summary
     from emogen_core.analysis.enough import Result
@@ -113,7 +114,17 @@ class Context:
     def label(self, cell: Cell) -> str:
         """Return what a cell is called in figures: what is the same in all cells goes without saying."""
         varied = (True, len(self.identities) > 1, len(self.conditions) > 1)
-        return ", ".join(name for name, wanted in zip(cell, varied, strict=True) if wanted)
+        names = (cell.emotion, self.head(cell.identity), cell.condition)
+        return ", ".join(name for name, wanted in zip(names, varied, strict=True) if wanted)
+
+    def head(self, identity: str) -> str:
+        """Return what people call a head; tables have it as the export has it, so that they can be joined."""
+        return self.names.get(identity, identity)
+
+    @cached_property
+    def names(self) -> Mapping[str, str]:
+        """What people call the heads of the study's own."""
+        return head_names(self.recording.studies, self.identities)
 
     def lacking(self, results: Iterable[tuple[Cell, Result]], what: str) -> tuple[str, ...]:
         """Return what is lacking of cells, a sentence for all that lack the same."""

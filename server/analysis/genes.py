@@ -12,7 +12,7 @@ from emogen_core.similarity.cosine import cosine_distance
 from .faces import Two
 from .groups import EACH, compared
 from .section import Column, Section, Sheet
-from .telling import NAMED, counted, lacking, p_is
+from .telling import NAMED, counted, lacking, listed, p_is, reasons
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -52,9 +52,10 @@ def genes(context: Context) -> Section | None:
     ]
     rows = [(gene.q, _row(context, pair, gene)) for pair in found for gene in pair.found.genes]
     columns = (
-        *EACH, Column("condition"), Column("other condition"), Column("gene"),
+        *EACH, Column("condition"), Column("other condition"), Column("people"), Column("gene"),
         Column("difference", help="Of the means of the first condition from the second."),
-        Column("g", 2, "Hedges' g."), Column("low", 2, "Lower end of its 95 % interval."), Column("high", 2),
+        Column("g", 2, "Hedges' g; none with fewer than 5 people in a group or where nobody in one differs."),
+        Column("low", 2, "Lower end of its 95 % interval."), Column("high", 2),
         Column("p", 4), Column("q", 4, "p adjusted for false discoveries over the genes that are tested."),
     )  # fmt: skip
     discovered = tuple(row for q, row in rows if q <= ALPHA)
@@ -74,7 +75,8 @@ def genes(context: Context) -> Section | None:
 def _row(context: Context, pair: Pair, gene: GeneDifference) -> tuple[Value, ...]:
     size = gene.effect
     return (
-        pair.where.emotion, pair.where.identity, pair.first, pair.second, context.rig.gene_names[gene.gene],
+        pair.where.emotion, pair.where.identity, pair.first, pair.second, ", ".join(map(str, pair.found.sizes)),
+        context.rig.gene_names[gene.gene],
         size.difference, size.g, size.low, size.high, gene.p, gene.q,
     )  # fmt: skip
 
@@ -91,8 +93,9 @@ def _told(context: Context, found: Sequence[Pair]) -> list[str]:
             f"In {counted(len(none), 'comparison')} ({counted(tests, 'test')}) no gene had q ≤ .05"
             f" (smallest {p_is(least, 'q')})."
         )
-    if len(able) < len(found):
-        told.append(f"In {counted(len(found) - len(able), 'comparison')} no gene could be tested: too few people.")
+    unable = [pair.found for pair in found if not pair.found.genes]
+    if unable:
+        told.append(f"In {counted(len(unable), 'comparison')} no gene could be tested: {reasons(unable)}.")
     return told
 
 
@@ -102,19 +105,24 @@ def _significant(pair: Pair) -> list[GeneDifference]:
 
 def _differ(context: Context, pair: Pair) -> str:
     found = _significant(pair)
-    names = [
-        f"{context.rig.gene_names[gene.gene]} (g = {gene.effect.g or 0:.2f}, {p_is(gene.q, 'q')})"
-        for gene in found[:NAMED]
-    ]
+    names = [f"{context.rig.gene_names[gene.gene]} ({_large(gene)}{p_is(gene.q, 'q')})" for gene in found[:NAMED]]
     more = f" and {len(found) - NAMED} more (genes.csv)" if len(found) > NAMED else ""
-    return f"{pair.label}: {len(found)} of {len(pair.found.genes)} genes differed, {', '.join(names)}{more}."
+    sizes = listed([str(size) for size in pair.found.sizes])
+    return (
+        f"{pair.label} (n = {sizes}): {len(found)} of {len(pair.found.genes)} genes differed, {', '.join(names)}{more}."
+    )
+
+
+def _large(gene: GeneDifference) -> str:
+    return "" if gene.effect.g is None else f"g = {gene.effect.g:.2f}, "
 
 
 def differences(context: Context) -> Section:
     """Return where two mean faces differ: of two conditions, or of two emotions where there are no conditions."""
     pairs = _pairs(context)
     rows = tuple((two.label, two.identity, *two.names, distance) for two, distance in pairs)
-    drawn = sorted(pairs, key=lambda pair: -pair[1])[:SHOWN]
+    greatest = sorted(range(len(pairs)), key=lambda at: -pairs[at][1])[:SHOWN]
+    drawn = [pairs[at] for at in sorted(greatest)]
     studio = context.studio
     notes = (f"The {SHOWN} greatest of {len(pairs)} are drawn.",) if len(pairs) > SHOWN else ()
     return Section(
@@ -137,7 +145,7 @@ def _pairs(context: Context) -> list[tuple[Two, float]]:
         same_emotion = one.cell.emotion == other.cell.emotion
         if one.cell.identity == other.cell.identity and same_emotion == several:
             names = (one.cell[2], other.cell[2]) if several else (one.cell.emotion, other.cell.emotion)
-            label = f"{one.cell.emotion if several else ' and '.join(names)}, {one.cell.identity}"
+            label = f"{one.cell.emotion if several else ' and '.join(names)}, {context.head(one.cell.identity)}"
             two = Two(label, one.cell.identity, names, (one.weights, other.weights))
             found.append((two, float(cosine_distance(one.weights, other.weights))))
     return found

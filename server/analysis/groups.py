@@ -14,7 +14,7 @@ from emogen_core.analysis.enough import ALPHA
 from emogen_core.analysis.groups import dispersions, intensities, ratings
 
 from .section import Column, Section, Sheet
-from .telling import NAMED, counted, interval, lacking, listed, p_is, p_range, span
+from .telling import NAMED, counted, interval, lacking, listed, p_is, p_range, reasons, span
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     Values = Callable[[Sequence[Faces]], Groups]
 
 MEAN_FACE = "mean face"
-FEW = "too few people, or too few who differ"
 EACH = Column("emotion"), Column("head")
 COLUMNS = (
     *EACH, Column("question"), Column("conditions"), Column("design"), Column("people"),
@@ -44,16 +43,17 @@ COLUMNS = (
 
 @dataclass(frozen=True, slots=True)
 class Compared:
-    """The faces of one emotion on one head, by condition: two at least."""
+    """The faces of one emotion on one head, by condition: two at least; `head` is what people call it."""
 
     emotion: str
     identity: str
+    head: str
     groups: Mapping[str, Faces]
 
     @property
     def label(self) -> str:
         """What it is called."""
-        return f"{self.emotion}, {self.identity}"
+        return f"{self.emotion}, {self.head}"
 
     @property
     def faces(self) -> list[Faces]:
@@ -80,7 +80,7 @@ def compared(context: Context) -> tuple[Compared, ...]:
             parts = {name: context.faces.only(emotion, identity, name) for name in context.conditions}
             groups = {name: faces for name, faces in parts.items() if len(faces)}
             if len(groups) > 1:
-                found.append(Compared(emotion, identity, groups))
+                found.append(Compared(emotion, identity, context.head(identity), groups))
     return tuple(found)
 
 
@@ -154,14 +154,15 @@ def _row(one: Tested) -> tuple[Value, ...]:
 def _told(question: str, tests: Sequence[Tested]) -> str:
     """Return what came of a question."""
     able = [one for one in tests if one.q is not None]
+    why = reasons(one.test for one in tests)
     if not able:
-        return f"No test of {question} could be made: {FEW}."
+        return f"No test of {question} could be made: {why}."
     found = [one for one in able if (one.q or 0) <= ALPHA]
     sizes = span([size for one in able for size in one.test.sizes], 0)
     left = len(tests) - len(able)
     return (
         f"Of {counted(len(able), 'test')} of {question} (n = {sizes} a condition), {len(found) or 'none'} had q ≤ .05:"
-        f" {'; '.join(_results(able, found))}." + (f" {left} more could not be made: {FEW}." if left else "")
+        f" {'; '.join(_results(able, found))}." + (f" {left} more could not be made: {why}." if left else "")
     )
 
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from emogen_core.analysis.enough import PERMUTATIONS
 from emogen_core.analysis.independence import agreement, head_effect
 
 from .section import Column, Section, Sheet
-from .telling import interval, p_is, span
+from .telling import counted, interval, p_is, reasons, span
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -34,7 +35,8 @@ def heads(context: Context) -> Section | None:
     )  # fmt: skip
     whole = (
         Column("same", help="Distance of mean faces of one emotion on two heads."), Column("other"),
-        Column("identified", 2), Column("p", 4), Column("permutations"),
+        Column("identified", 2), Column("tied", 2, "Share of mean faces to which several are equally near."),
+        Column("p", 4), Column("permutations"),
     )  # fmt: skip
     lacks = [f"{emotion}: an influence of the head {one.lacks}." for emotion, one in found if one.lacks]
     lacks += [f"All emotions: agreement of heads {together.lacks}."] if together.lacks else []
@@ -49,38 +51,43 @@ def heads(context: Context) -> Section | None:
         ),
         files=(
             Sheet("heads-agreement", whole,
-                  ((together.same, together.other, together.identified, together.p, together.permutations),)),
+                  ((together.same, together.other, together.identified, together.tied, together.p,
+                    together.permutations),)),
         ),
         lacks=tuple(lacks),
         notes=("A difference that is not significant shows no independence: look at the upper end of the interval.",),
-        methods=(_agreed(together), *_effects([(emotion, one) for emotion, one in found if one.enough], len(found))),
+        methods=(_agreed(together), *_effects(found)),
     )  # fmt: skip
 
 
 def _agreed(found: Agreement) -> str:
     if found.same is None or found.other is None or found.identified is None:
-        return "Whether mean faces of one emotion on different heads agree cannot be told: too few people or emotions."
+        return f"Whether mean faces of one emotion on different heads agree cannot be told: {reasons([found])}."
     told = (
         f"Mean faces of one emotion on two heads were {found.same:.3f} apart, of two emotions {found.other:.3f}; for"
         f" {100 * found.identified:.0f} % of them the nearest on another head was of the same emotion"
     )
-    if found.p is None:
-        return f"{told} (too few emotions and heads for a test)."
-    return f"{told} (permutation of emotions, {p_is(found.p)})."
+    if found.tied:
+        told += f", where for {100 * found.tied:.0f} % several are equally near and each counts its share"
+    if found.lacks:
+        few = found.lacks.what == PERMUTATIONS and not found.lacks.alike
+        return f"{told} (no test: {'too few emotions and heads' if few else found.lacks.reason})."
+    return f"{told} (permutation of emotions, {p_is(found.p or 0)})."
 
 
-def _effects(told: Sequence[tuple[str, HeadEffect]], of: int) -> tuple[str, ...]:
+def _effects(found: Sequence[tuple[str, HeadEffect]]) -> tuple[str, ...]:
     """Return how much further apart faces are on two heads, and how much is still possible."""
+    told, missing = [(emotion, one) for emotion, one in found if one.enough], [one for _, one in found if one.lacks]
     if not told:
-        return ("How much a head changes the faces of one emotion cannot be told: too few people.",)
+        return (f"How much a head changes the faces of one emotion cannot be told: {reasons(missing)}.",)
     if len(told) == 1:
         ((emotion, one),) = told
-        each = f" by {one.excess:.3f} for {emotion} (n = {one.people}{interval(one.low, one.high)})"
+        each = f"{one.excess:.3f} ({emotion}, n = {one.people}{interval(one.low, one.high)})"
     else:
-        each = f", by emotion, by {span(one.excess for _, one in told)}"
+        each = f"{span(one.excess for _, one in told)} (by emotion; below 0 is nearer)"
     most = max(told, key=lambda one: one[1].high or 0)
     return (
-        "Faces of different participants for one emotion were further apart on two heads than on one"
-        f"{each}; the greatest upper end of the 95 % intervals was {most[1].high:.3f} ({most[0]})."
-        + (f" Of {of - len(told)} emotions too few people had made faces on every head." if len(told) < of else ""),
+        f"Faces of different participants for one emotion were {each} further apart on two heads than on one; the"
+        f" greatest upper end of the 95 % intervals was {most[1].high:.3f} ({most[0]})."
+        + (f" It cannot be told of {counted(len(missing), 'emotion')}: {reasons(missing)}." if missing else ""),
     )

@@ -83,8 +83,10 @@ def _map_panel(context: Context, found: FaceMap, frame: Frame, identity: str, em
         marks.append(dots([(x, y) for x, y in places.tolist()], look_of(at), DOT))
     marks.append(titles("component 1", "component 2"))
     words = ", ".join(emotions)
-    caption = Caption(f"map-{identity}-{emotions[0]}", f"Finished faces, {identity}", f"{words}.", "small cloud")
-    return Panel(identity, words, drawn(frame, marks, caption))
+    caption = Caption(
+        f"map-{identity}-{emotions[0]}", f"Finished faces, {context.head(identity)}", f"{words}.", "small cloud"
+    )
+    return Panel(context.head(identity), words, drawn(frame, marks, caption))
 
 
 def _square(points: np.ndarray) -> Frame:
@@ -131,14 +133,14 @@ def _kinds(found: Sequence[tuple[str, Mixture]]) -> tuple[str, ...]:
         f" {one.advantage:.1f} than that of one{', very strong evidence' if one.several else ''})"
         for emotion, one in told
     ]
-    untold = [emotion for emotion, one in found if not one.enough]
+    untold = [f"{emotion} ({one.lacks.reason})" for emotion, one in found if one.lacks]
     return (
         *([
             "Mixtures of Gaussians were fitted on the first two principal components of weights scaled to length 1, one"
             " face a participant; by BIC (more than 10: very strong evidence; Kass & Raftery, 1995) there were"
             f" {'; '.join(counts)}."
         ] if counts else []),
-        *([f"Too few faces for a mixture: {', '.join(untold)}."] if untold else []),
+        *([f"No mixture was fitted for {', '.join(untold)}."] if untold else []),
     )  # fmt: skip
 
 

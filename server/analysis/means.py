@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from emogen_core.analysis.cells import lengths
 
 from .section import Column, Section, Sheet
-from .telling import cells, each_or_all, interval, span, untold
+from .telling import NAMED, cells, counted, each_or_all, interval, span, untold
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -44,12 +46,12 @@ def means(context: Context) -> Section:
         " A mean face of people who mean different things is a face that nobody meant: look at spread and kinds.",
         Sheet("means", (*context.key_columns, *COLUMNS), rows),
         lacks=context.lacking(((one.cell, one) for one in context.summaries), "a spread or an interval"),
+        notes=_alike(context),
         files=(_mean_weights(context), _every_face(context)), gallery=_gallery(context),
         methods=(
             "Mean faces are means of genes over participants, corrected like every face that was shown."
             " The intensity of a face is the Euclidean length of its blendshape weights.",
-            *_told(context), *untold(sum(not one.enough for one in context.summaries), len(context.summaries),
-                                     "spread or interval of intensity"),
+            *_told(context), *untold(context.summaries, "spread or interval of intensity"), *_alike(context),
         ),
     )  # fmt: skip
 
@@ -70,6 +72,18 @@ def _told(context: Context) -> tuple[str, ...]:
         )
 
     return each_or_all([one for one in context.summaries if one.enough], each, together)
+
+
+def _alike(context: Context) -> tuple[str, ...]:
+    """Return of which cells all faces are the same: there is no interval of what does not vary."""
+    same = [cell for cell, faces in context.cells if faces.person_count > 1 and not np.ptp(faces.weights, axis=0).any()]
+    if not same:
+        return ()
+    named = "" if len(same) > NAMED else f" ({'; '.join(map(context.label, same))})"
+    return (
+        f"In {len(same)} of {counted(len(context.cells), 'cell')}{named} all faces are the same; how far those of"
+        " other people may be cannot be said.",
+    )
 
 
 def _gallery(context: Context) -> Gallery | None:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 from .telling import counted, listed
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from .context import Context
     from .section import Section
@@ -56,6 +56,10 @@ class Facts:
         simulated: whether all of them are simulated, some or none.
         seed: of the random numbers.
         searches: simulated, for each kind of participant and each search of the study.
+        filters: what the export was restricted by, as its manifest has it.
+        restricted: that in words; empty where it is of the whole study.
+        unchecked: whether it leaves out attention checks that the study has.
+        heads: what people call those heads of the study's own that are in the tables under other names.
     """
 
     command: str
@@ -72,6 +76,10 @@ class Facts:
     simulated: Literal["all", "some", "none"]
     seed: int
     searches: int
+    filters: Mapping[str, str] = field(default_factory=dict)
+    restricted: str = ""
+    unchecked: bool = False
+    heads: Mapping[str, str] = field(default_factory=dict)
 
 
 def methods(context: Context, sections: Sequence[Section], facts: Facts) -> list[str]:
@@ -85,13 +93,18 @@ def _sample(context: Context, facts: Facts) -> str:
     faces, recording = context.faces, context.recording
     left = ", ".join(f"{count} {why}" for why, count in recording.left_out.items())
     again = len(recording.faces) - len(faces)
+    part = f", in an export restricted to {facts.restricted}," if facts.restricted else ""
+    emotions, heads = ", ".join(context.emotions), ", ".join(map(context.head, context.identities))
     return (
-        f"{faces.person_count} of {facts.counted} who completed the study “{facts.title}” made"
-        f" {counted(len(faces), 'face')} for {counted(len(context.emotions), 'emotion')}"
-        f" ({', '.join(context.emotions)}) on {counted(len(context.identities), 'head')}"
+        f"{faces.person_count} of {facts.counted} who completed the study “{facts.title}”{part} made"
+        f" {counted(len(faces), 'face')}"
+        + (f" for {counted(len(context.emotions), 'emotion')} ({emotions}) on"
+           f" {counted(len(context.identities), 'head')} ({heads})" if emotions else "")
         + (f" in {len(context.conditions)} conditions" if context.conditions[1:] else "")
         + (f", and {counted(again, 'face')} once more as a retest" if again else "")
         + (f". Left out: {left}." if left else ".")
+        + (" Attention checks are not in this export, so those who failed one are not left out."
+           if facts.unchecked else "")
     )  # fmt: skip
 
 
@@ -121,8 +134,12 @@ def _settings(context: Context, key: str) -> str:
 
 def _versions(facts: Facts) -> str:
     configurations = ", ".join(facts.configurations)
+    heads = "".join(
+        f" In the tables the head {name} is {head}, by the SHA-256 of its identity document."
+        for head, name in facts.heads.items()
+    )
     return (
         f"Analysed with Emogen {facts.version} (command “{facts.command}”, seed {facts.seed}) from an export of"
         f" {facts.exported_at} by Emogen {facts.recorded_with}; face model SHA-256 {facts.rig_hash}; configuration"
-        f" SHA-256 {configurations}. The seed of every trial is in faces.csv."
+        f" SHA-256 {configurations}. The seed of every trial is in faces.csv.{heads}"
     )

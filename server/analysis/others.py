@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from emogen_core.analysis.comparisons import controlled
 from emogen_core.analysis.intervals import mean_interval
 from emogen_core.analysis.proxy import convergence, proxy
 
@@ -17,7 +18,7 @@ from .simulated import MOST
 from .telling import cells, each_or_all, interval, span, untold
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from emogen_core.analysis.intervals import Interval
     from emogen_core.analysis.proxy import Convergence, Proxy
@@ -52,6 +53,7 @@ def proxies(context: Context) -> Section:
     """Return the distances of people to the mean of the others beside the simulated ones."""
     found = [_far(context, cell) for cell, _ in context.cells]
     told = [one for one in found if one.faithful.enough]
+    q = controlled({one.cell: one.faithful.beyond for one in told})
     columns = (
         Column("people"), Column("mean", help="Cosine distance to the mean of the weights of the others."),
         Column("sd"), Column("mean low", help="Lower end of the 95 % interval of the mean (Student)."),
@@ -59,10 +61,11 @@ def proxies(context: Context) -> Section:
         Column("beyond", help="People beyond it."), Column("share"),
         Column("share low", help="Lower end of the exact 95 % interval of the share."), Column("share high"),
         Column("p", 4, "Of as many beyond by chance, one in twenty each; approximate."),
+        Column("q", 4, "p adjusted for false discoveries over the cells."),
         Column("beyond with noise", help="People beyond the 95th percentile of people with noise."),
     )  # fmt: skip
     rows = tuple(
-        (*context.key(one.cell), len(one.faithful.people), *(_row(one) if one in told else (None,) * 13))
+        (*context.key(one.cell), len(one.faithful.people), *(_row(one, q) if one in told else (None,) * 14))
         for one in found
     )
     spans = [Span(context.label(one.cell), one.mean.mean, one.mean.low, one.mean.high, one.noises) for one in told]
@@ -76,7 +79,7 @@ def proxies(context: Context) -> Section:
         figures=(spans_figure("proxy", title, spans, "cosine distance", NOISE),) if spans else (),
         methods=(
             *_beyond(context, told),
-            *untold(len(found) - len(told), len(found), "distance to the mean of the others"),
+            *untold([one.faithful for one in found], "distance to the mean of the others"),
         ),
     )  # fmt: skip
 
@@ -87,11 +90,11 @@ def _far(context: Context, cell: Cell) -> Far:
     return Far(cell, faithful, noisy, mean_interval(faithful.distances), crowd)
 
 
-def _row(one: Far) -> tuple[Value, ...]:
+def _row(one: Far, q: Mapping[Cell, float]) -> tuple[Value, ...]:
     beyond = one.faithful.beyond
     return (
         one.mean.mean, one.faithful.sd, one.mean.low, one.mean.high, *one.noises, one.crowd.faithful[-1].most,
-        beyond.beyond, beyond.share, beyond.low, beyond.high, beyond.p, one.noisy.beyond.beyond,
+        beyond.beyond, beyond.share, beyond.low, beyond.high, beyond.p, q.get(one.cell), one.noisy.beyond.beyond,
     )  # fmt: skip
 
 
@@ -139,7 +142,7 @@ def converging(context: Context) -> Section:
         Sheet("convergence", (*context.key_columns, *columns), rows), lacks=context.lacking(found, "convergence"),
         notes=(SIZES,), figures=(_courses(context, told),) if told else (),
         methods=(
-            *_nearer(context, told), *untold(len(found) - len(told), len(found), "convergence"),
+            *_nearer(context, told), *untold([one for _, one in found], "convergence"),
         ),
     )  # fmt: skip
 

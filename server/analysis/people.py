@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from emogen_core.analysis.enough import ALPHA, Result, too_few
+from emogen_core.analysis.enough import ALPHA, FEWEST_PEOPLE, Result, too_few
 from emogen_core.analysis.intervals import people_mean
 from emogen_core.analysis.matching import match
 from emogen_core.analysis.process import process
@@ -118,9 +118,11 @@ def _ranges(found: Sequence[tuple[Cell, str, Interval]]) -> tuple[str, ...]:
     """Return the range of the cells' means of every measure."""
     means: dict[str, list[float]] = {}
     for _, name, told in found:
-        if told.mean is not None and told.low is not None:
+        if told.mean is not None and told.count >= FEWEST_PEOPLE:
             means.setdefault(name, []).append(told.mean)
     ranges = "; ".join(f"{name} {span(values, 2)}" for name, values in means.items())
+    if not found:
+        return ()
     if not ranges:
         return ("No mean of a measure of search is told: too few people.",)
     return (f"Means of the measures of search, by cell: {ranges} (process.csv).",)

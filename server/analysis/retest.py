@@ -7,15 +7,17 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from emogen_core.analysis.cells import lengths
+from emogen_core.analysis.comparisons import controlled
+from emogen_core.analysis.enough import ALPHA
 from emogen_core.analysis.icc import icc
 from emogen_core.analysis.reliability import reliability, retest
 
 from .rows import NOISE, Span, spans_figure
 from .section import Column, Section, Sheet
-from .telling import bounded, cells, each_or_all, interval, p_is, p_range, span, untold
+from .telling import bounded, cells, counted, each_or_all, interval, p_is, p_range, span, untold
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from emogen_core.analysis.icc import Icc
     from emogen_core.analysis.recorded import Cell, Faces
@@ -50,6 +52,7 @@ def retests(context: Context) -> Section | None:
         Column("identified", 2, "Share of people whose second face is nearest to their first; by chance 1 / people."),
         Column("discriminability", 2, "Chance that the own second face is nearer than another person's; .5 by chance."),
         Column("p", 4, "Of a mean rank of the own face as low by chance."),
+        Column("q", 4, "p adjusted for false discoveries over the cells."),
         Column("ICC(2,1)", 2, "Of the intensity, absolute agreement."),
     )  # fmt: skip
     spans = [
@@ -57,17 +60,19 @@ def retests(context: Context) -> Section | None:
         for one in found
     ]
     told = [one for one in found if one.found.enough]
+    q = controlled({one.cell: one.found for one in told})
+    rows = tuple((*context.key(one.cell), *_row(one, q.get(one.cell))) for one in found)
     return Section(
         "retest", "Do people repeat themselves?",
         "An excess near 0 says that people repeat themselves as well as the search allows.",
-        Sheet("retest", (*context.key_columns, *columns), tuple((*context.key(one.cell), *_row(one)) for one in found)),
+        Sheet("retest", (*context.key_columns, *columns), rows),
         lacks=context.lacking(((one.cell, one.found) for one in found), "reliability"),
         figures=(spans_figure("retest", "Distance of the two faces of one person", spans, "cosine distance", NOISE),),
         methods=(
             "Test-retest reliability was measured by the distance of the two faces of each participant beside two"
             " simulated searches for one face, by identification (Finn et al., 2015), by discriminability (Bridgeford"
             " et al., 2021), and by the ICC(2,1) of intensity (McGraw & Wong, 1996).",
-            *_told(context, told), *untold(len(found) - len(told), len(found), "reliability"),
+            *_told(context, told), *_adjusted(q), *untold([one.found for one in found], "reliability"),
         ),
     )  # fmt: skip
 
@@ -79,16 +84,26 @@ def _again(context: Context, at: int, cell: Cell, own: Faces) -> Again:
     return Again(cell, found, intensity, (noise.faithful.apart.mean, noise.noisy.apart.mean))
 
 
-def _row(one: Again) -> tuple[Value, ...]:
+def _row(one: Again, q: float | None) -> tuple[Value, ...]:
     found, agreed = one.found, one.intensity.agreement
     return (
         found.people, found.own.mean, found.own.low, found.own.high, *one.noises, found.excess, found.others,
-        found.identified, found.discriminability, found.p, agreed.value if agreed else None,
+        found.identified, found.discriminability, found.p, q, agreed.value if agreed else None,
     )  # fmt: skip
 
 
 def _told(context: Context, found: Sequence[Again]) -> tuple[str, ...]:
     return each_or_all(found, lambda one: f"For {context.label(one.cell)}, {_one(one)}", _all)
+
+
+def _adjusted(q: Mapping[Cell, float]) -> tuple[str, ...]:
+    """Return how many cells are significant among several."""
+    if len(q) < 2:
+        return ()
+    return (
+        f"Adjusted for false discoveries over {counted(len(q), 'cell')} (Benjamini & Hochberg, 1995),"
+        f" {sum(one <= ALPHA for one in q.values())} had q ≤ .05.",
+    )
 
 
 def _one(one: Again) -> str:

@@ -57,8 +57,9 @@ def listed(words: Sequence[str]) -> str:
 
 
 def counted(count: int, what: str) -> str:
-    """Return a number of things."""
-    return f"{count:,} {what}{'' if count == 1 else 's'}"
+    """Return a number of things; of several words the first has the plural's s where the second is "of"."""
+    first, of, rest = what.partition(" of ")
+    return f"{count:,} {first}{'' if count == 1 else 's'}{of}{rest}"
 
 
 def each_or_all(
@@ -72,15 +73,27 @@ def each_or_all(
 
 def lacking(results: Iterable[tuple[str, Result]], what: str) -> tuple[str, ...]:
     """Return what is lacking for something, a sentence for all that lack the same."""
-    missing: dict[str, list[str]] = {}
+    missing: dict[str, dict[str, None]] = {}
+    labels: set[str] = set()
     for label, result in results:
+        labels.add(label)
         if result.lacks is not None:
-            missing.setdefault(str(result.lacks), []).append(label)
-    return tuple(f"{'; '.join(dict.fromkeys(labels))}: {what} {lacks}." for lacks, labels in missing.items())
+            missing.setdefault(str(result.lacks), {})[label] = None
+    return tuple(
+        f"{f'All {len(these)}' if len(these) == len(labels) > NAMED else '; '.join(these)}: {what} {lacks}."
+        for lacks, these in missing.items()
+    )
 
 
-def untold(lacking: int, of: int, what: str, why: str = "too few people") -> tuple[str, ...]:
-    """Return the sentence that something is not told, where that is so."""
-    if not lacking:
+def reasons(results: Iterable[Result]) -> str:
+    """Return why results cannot be told: each reason once, nothing where all can."""
+    return ", or ".join(dict.fromkeys(one.lacks.reason for one in results if one.lacks))
+
+
+def untold(results: Sequence[Result], what: str, of: str = "cell") -> tuple[str, ...]:
+    """Return the sentence that something is not told of cells, and why, where that is so."""
+    missing = [one for one in results if not one.enough]
+    if not missing:
         return ()
-    return (f"No {what} is told for {'any' if lacking == of else lacking} of {counted(of, 'cell')}: {why}.",)
+    some = "any" if len(missing) == len(results) else len(missing)
+    return (f"No {what} is told for {some} of {counted(len(results), of)}: {reasons(missing)}.",)

@@ -20,8 +20,10 @@ from ..analysis.context import Context
 from ..analysis.counted import PEOPLE, PILOT, SIMULATED
 from ..analysis.faces import Studio
 from ..analysis.files import PAGE, plain, write
+from ..analysis.head_names import head_names
 from ..analysis.methods import Facts, methods
 from ..analysis.reading import read
+from ..analysis.restricted import filters, restricted, unchecked
 from ..analysis.sections import sections
 from ..analysis.simulated import simulate
 from ..analysis.telling import counted
@@ -98,7 +100,10 @@ def _facts(kept: Export, recording: Recording, rig: Rig, kinds: tuple[str, ...],
         rig_hash=rig.hash, configurations=recording.config_hashes, algorithms=recording.algorithms,
         simulated=_share(recording.simulated, recording.counted),
         counted=_counted(recording.simulated, recording.counted, kinds),
-        seed=command[1], searches=SEARCHES,
+        seed=command[1], searches=SEARCHES, filters=filters(kept.manifest),
+        restricted=restricted(filters(kept.manifest)),
+        unchecked=unchecked(filters(kept.manifest), recording.studies),
+        heads=head_names(recording.studies, sorted(set(recording.faces.identities.tolist()))),
     )  # fmt: skip
 
 

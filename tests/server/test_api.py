@@ -18,6 +18,7 @@ from server.app import create_app
 from server.services.reports.tables.columns import TABLES
 from server.services.reports.tables.dictionary import markdown
 from tests.conftest import small_study
+from tests.server.exported import text
 from tests.server.openapi import described
 from tests.server.walker import Walker
 
@@ -135,13 +136,30 @@ def place(tmp_path, monkeypatch, token, client):
     monkeypatch.setattr("httpx2.Client", lambda **_: client)
 
 
-def test_the_python_of_the_document_runs(study, place, capsys):
+def test_the_python_of_the_document_runs_and_counts_only_who_completed(client, house, place, capsys):
+    """Others did the pilot, or left shortly before the end."""
+    study = house.studies.create(small_study(), "pilot")
+    pilot = Walker(client, study.links[0])
+    pilot.finish()
+    client.cookies.clear()
+    house.life.move(study.id, "recruiting", "u")
+    Walker(client, study.links[0]).finish()
+    client.cookies.clear()
+    Walker(client, study.links[0]).finish(steps=len(pilot.sent) - 1)
     code = documented("python")
     assert len([line for line in code.splitlines() if line.strip()]) <= 10
-    exec(compile(code.replace(HOST, "http://testserver").replace('"demo"', f'"{study.id}"'), "export.md", "exec"), {})
+    names = {}
+    code = code.replace(HOST, "http://testserver").replace('"demo"', f'"{study.id}"')
+    exec(compile(code, "export.md", "exec"), names)
     said = capsys.readouterr().out
     assert "happy" in said
     assert "gene_" in said
+    people = [json.loads(line) for line in text(house, study.id, "participations").splitlines()]
+    assert [one["pilot"] for one in people] == [True, False, False]
+    assert [one["outcome"] for one in people] == ["complete", "complete", None]
+    done = names["trials"].dropna(subset="final_face")
+    assert set(done["participation"]) == {one["participation"] for one in people}, "everybody has finished faces"
+    assert set(names["measured"]["participation"]) == {people[1]["participation"]}
 
 
 @pytest.mark.skipif(shutil.which("Rscript") is None, reason="R is not installed")

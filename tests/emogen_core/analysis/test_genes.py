@@ -61,4 +61,5 @@ def test_few_people_show_nothing(count, second, what):
 
 def test_faces_that_are_all_alike_have_only_still_genes():
     found = gene_differences(drawn(np.ones((6, 2))), drawn(np.ones((6, 2)), names(6, "q")), rng())
-    assert (found.genes, found.still, found.enough) == ((), (0, 1), True)
+    assert (found.genes, found.still) == ((), (0, 1))
+    assert str(found.lacks) == "needs faces that differ, but all faces are the same"

@@ -51,6 +51,25 @@ def test_the_same_faces_on_every_head_agree():
     assert found.p == pytest.approx(1 / 24)
 
 
+def test_of_mean_faces_equally_near_each_counts_its_share_and_that_is_told():
+    one = on_heads(heads=1)
+    of = {"e0": "e0", "e1": "e0", "e2": "e2", "e3": "e3"}  # two emotions have the same faces
+    twins = joined(*(drawn(one.only(of[name]).weights, emotions=name, identities=head) for head in "ab" for name in of))
+    found = agreement(twins, rng())
+    assert (found.identified, found.tied) == (pytest.approx((0.5 + 0.5 + 1 + 1) / 4), 0.5)
+    assert (found.p, found.lacks.reason) == (None, "too many are the same")  # two of 24 assignments fit best
+    assert agreement(on_heads(), rng()).tied == 0
+
+
+def test_faces_that_are_all_the_same_show_neither_agreement_nor_independence():
+    same = joined(*(drawn(np.ones((6, 4)), emotions=f"e{e}", identities=f"h{h}") for e in range(4) for h in range(2)))
+    found = agreement(same, rng())
+    assert (found.identified, found.tied, found.p) == (0.25, 1, None)
+    assert found.lacks.reason == "all distances are the same"
+    effect = head_effect(same.only("e0"), rng())
+    assert (effect.low, effect.high, effect.lacks.reason) == (None, None, "all distances are the same")
+
+
 @pytest.mark.parametrize(
     ("options", "what"),
     [

@@ -49,7 +49,8 @@ def test_the_ideal_and_nothing_at_all():
     assert (ideal.own.mean, ideal.others, ideal.identified, ideal.rank, ideal.discriminability) == (0, 1, 1, 1, 1)
     assert ideal.p == pytest.approx(1 / 720)
     alike = reliability(Retest(names(6), np.ones((6, 2)), np.ones((6, 2))), rng())
-    assert (alike.identified, alike.rank, alike.discriminability, alike.p) == (pytest.approx(1 / 6), 3.5, 0.5, 1)
+    assert (alike.own.low, alike.identified, alike.rank, alike.p) == (None,) * 4
+    assert alike.lacks.reason == "all distances are the same"
 
 
 def test_own_distances_beside_simulated_ones():

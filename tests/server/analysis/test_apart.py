@@ -61,6 +61,13 @@ def test_with_too_few_people_there_is_no_interval_and_that_is_said():
     assert "No interval of distances is told for 1 of 2 cells: too few people." in text
 
 
+def test_faces_that_are_all_the_same_have_no_interval_and_that_is_the_reason():
+    section = within(context(made(MIND, 8, spread=0)))
+    (row,) = rows(section)
+    assert (row["mean"], row["low"], row["above"]) == (0, None, None)
+    assert section.methods[-1] == "No interval of distances is told for any of 1 cell: all distances are the same."
+
+
 def test_the_text_has_the_numbers_of_few_cells_and_the_range_of_many():
     section = within(context(made(MIND, 6)))
     (row,) = rows(section)
@@ -94,6 +101,22 @@ def test_emotions_with_different_faces_are_further_apart_than_people_with_one():
     assert (row["emotion"], row["other emotion"], row["people"]) == ("happy", "angry", 6)
     assert row["mean"] > max(one["mean"] for one in rows(within(told)))
     assert row["pairs"] == 6 * 6 - 6  # nobody makes a pair with themselves
+
+
+def test_the_text_counts_pairs_of_cells_and_those_of_which_nothing_is_told():
+    parts = [
+        made(template(at + more * at), people, emotion=f"e{at}", identity=head, name=head)
+        for more, head in enumerate(("female", "male"))
+        for at, people in enumerate((6, 6, 3))
+    ]
+    section = between(context(*parts))
+    told = [row["mean"] for row in rows(section) if row["low"] is not None]
+    assert len(told) == 2
+    assert section.methods == (
+        "On one head and in one condition, faces of different participants for different emotions were"
+        f" {min(told):.3f} to {max(told):.3f} apart (mean cosine distances of 2 pairs of cells; between.csv).",
+        "No distance of two emotions is told for 4 of 6 pairs of cells: too few people.",
+    )
 
 
 def test_emotions_are_only_compared_on_one_head_and_in_one_condition():

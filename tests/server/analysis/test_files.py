@@ -75,3 +75,20 @@ def test_simulated_people_are_named_before_anything_else():
     assert "All participants are simulated" in told["all"].partition("What the finished faces say")[0]
     assert "Some participants are simulated" in told["some"].partition("What the finished faces say")[0]
     assert "are simulated" not in told["none"]
+
+
+def test_what_the_export_was_restricted_to_is_said_before_anything_else():
+    part = replace(FACTS, filters={"condition": "<a>"}, restricted="the condition “<a>”", unchecked=True)
+    head = page([section()], [], part, faces=True).partition("What the finished faces")[0]
+    assert "it holds the condition “&lt;a&gt;” only" in head and "failed one" in head
+    assert "restricted" not in page([section()], [], FACTS, faces=True)
+    told = plain([section()], part)
+    assert (told["filters"], told["restricted"]) == ({"condition": "<a>"}, "the condition “<a>”")
+
+
+def test_people_read_the_name_of_a_head_and_the_file_has_what_the_export_has():
+    own = replace(section(), sheet=Sheet("some", (Column("emotion"), Column("head")), (("happy", "custom-1"),)))
+    told = page([own], [], replace(FACTS, heads={"custom-1": "Some<body"}), faces=True)
+    assert "<td>Some&lt;body</td>" in told and "<td>custom-1</td>" not in told
+    assert "Head Some&lt;body" in told and "custom-1" in told
+    assert "custom-1" in comma_separated(own.sheet)

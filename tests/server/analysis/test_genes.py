@@ -25,6 +25,7 @@ def test_a_shifted_gene_is_found_and_no_other():
     assert row["difference"] < -0.3 and row["g"] < -1 and row["low"] < row["g"] < row["high"]
     assert len(rows(section, "all-genes")) == GENES
     told = section.methods[1]
+    assert "(n = 12 and 12): " in told
     assert f"1 of {GENES} genes differed, {RIG.gene_names[3]} (g = {row['g']:.2f}, q = .001)" in told
 
 
@@ -42,6 +43,27 @@ def test_with_too_few_people_no_gene_is_tested():
     assert rows(section) == rows(section, "all-genes") == []
     assert len(section.lacks) == 1
     assert section.methods[1] == "In 1 comparison no gene could be tested: too few people."
+
+
+def test_where_people_are_too_few_for_an_interval_the_text_has_their_number_and_no_size():
+    shifted = np.where(np.arange(GENES) < 9, 0.9, MIND)
+    parts = [made(mind, 4, seed=at, spread=0.01, name=name, condition=name)
+             for at, (mind, name) in enumerate(((MIND, "alone"), (shifted, "together")))]  # fmt: skip
+    section = genes(context(*parts))
+    found = rows(section)
+    assert len(found) >= 9 and {(row["people"], row["g"], row["low"]) for row in found} == {("4, 4", None, None)}
+    told = section.methods[1]
+    assert "(n = 4 and 4)" in told and "g =" not in told
+    assert f"{found[0]['gene']} (q = .0" in told or f"{found[1]['gene']} (q = .0" in told
+
+
+def test_where_all_faces_are_the_same_that_is_the_reason():
+    parts = [made(MIND, 8, seed=1, spread=0, name=name, condition=name) for name in ("alone", "together")]
+    section = genes(context(*parts))
+    assert section.methods[1] == "In 1 comparison no gene could be tested: all faces are the same."
+    assert section.lacks == (
+        "happy, female, alone and together: a test of genes needs faces that differ, but all faces are the same.",
+    )
 
 
 def test_every_two_conditions_are_compared():

@@ -74,7 +74,7 @@ def test_nobody_answered_in_one_condition_is_said_and_told_as_nothing():
     row = asked(section)["happy", "rated satisfaction"]
     assert (row["statistic"], row["p"], row["q"], row["g"]) == (None,) * 4
     assert "happy, female: a test of rated satisfaction needs at least 2 people, got 0." in section.lacks
-    assert "No test of rated satisfaction could be made: too few people, or too few who differ." in section.methods
+    assert "No test of rated satisfaction could be made: too few people." in section.methods
 
 
 def test_p_is_adjusted_over_the_emotions_of_one_question():
@@ -99,9 +99,27 @@ def test_with_too_few_people_there_is_no_p_and_the_text_has_no_number():
     assert {row["p"] for row in rows(section)} == {None}
     assert len(section.lacks) == 3
     assert section.methods[1:] == tuple(
-        f"No test of {question} could be made: too few people, or too few who differ."
+        f"No test of {question} could be made: too few people."
         for question in ("mean face", "intensity", "dispersion")
     )  # fmt: skip
+
+
+def test_where_all_faces_and_answers_are_the_same_that_is_the_reason():
+    fours = [np.full(PEOPLE, 4.0)] * 2
+    section = conditions(context(*two(spread=(0, 0), rated=fours)))
+    assert {row["p"] for row in rows(section)} == {None}
+    assert section.methods[1:] == (
+        "No test of mean face could be made: all faces are the same.",
+        *(f"No test of {question} could be made: all values are the same."
+          for question in ("intensity", "dispersion", "rated satisfaction")),
+    )  # fmt: skip
+
+
+def test_no_size_is_told_without_an_interval_of_it():
+    section = conditions(context(*two(0.3 * MIND, MIND, spread=(0.02, 0.02), people=4)))
+    row = asked(section)["happy", "intensity"]
+    assert row["p"] < 0.05 and (row["g"], row["low"]) == (None, None)
+    assert not any(", g = " in one for one in section.methods)
 
 
 def test_the_text_names_every_test_of_few_and_only_what_differs_of_many():

@@ -43,5 +43,18 @@ def test_with_too_few_people_nothing_is_told_and_the_text_has_no_number():
     assert not any(letter.isdigit() for one in section.methods for letter in one.replace("95 %", ""))
 
 
+def test_agreement_by_ties_alone_is_told_as_such():
+    parts = [made(template(1), 6, spread=0, emotion=emotion, identity=head)
+             for emotion in EMOTIONS for head in ("female", "male")]  # fmt: skip
+    section = heads(context(*parts))
+    (whole,) = rows(section, "heads-agreement")
+    assert (whole["identified"], whole["tied"], whole["p"]) == (1 / len(EMOTIONS), 1, None)
+    agreed, effect = section.methods
+    assert agreed.endswith(
+        "where for 100 % several are equally near and each counts its share (no test: all distances are the same)."
+    )
+    assert effect == "How much a head changes the faces of one emotion cannot be told: all distances are the same."
+
+
 def test_one_head_has_no_such_part():
     assert heads(context(made(template(1), 6))) is None

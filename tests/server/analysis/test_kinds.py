@@ -28,7 +28,7 @@ def test_two_kinds_are_told_and_one_is_not_several(two_kinds):
     told, untold = section.methods
     assert f"2 components for happy (n = 60, BIC lower by {happy['advantage']:.1f}" in told
     assert "very strong evidence)" in told.split("angry")[0] and "very strong evidence)" not in told.split("angry")[1]
-    assert untold == "Too few faces for a mixture: sad."
+    assert untold == "No mixture was fitted for sad (too few faces)."
 
 
 def test_everybody_counts_once_in_a_mixture():

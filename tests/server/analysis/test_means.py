@@ -45,3 +45,10 @@ def test_too_few_people_have_a_mean_but_no_interval():
     assert row["intensity"] is not None
     assert (row["intensity low"], row["intensity high"], row["spread"], row["rated"]) == (None,) * 4
     assert section.methods[1:] == ("No spread or interval of intensity is told for any of 1 cell: too few people.",)
+
+
+def test_cells_whose_faces_are_all_the_same_are_named():
+    section = means(context(made(MIND, 6, spread=0), made(MIND, 6, emotion="angry"), made(MIND, 1, emotion="sad")))
+    (note,) = section.notes
+    assert note.startswith("In 1 of 3 cells (happy) all faces are the same") and note in section.methods
+    assert means(context(made(MIND, 6))).notes == ()

@@ -3,6 +3,7 @@
 import json
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -84,7 +85,28 @@ def test_with_two_people_a_cell_no_test_is_reported():
     told = whole(2)
     text = " ".join(methods(told, sections(told), FACTS)[:-9])
     assert not re.search(r"\b[pq] [=<]", text)
-    assert "could be made: too few people, or too few who differ" in text
+    assert "could be made: too few people." in text
+
+
+def test_the_filters_of_the_export_are_part_of_the_first_sentence():
+    told = context(made(template(1), 6))
+    whole, part = FACTS, replace(FACTS, restricted="the condition “alone”", unchecked=True)
+    (first, *_), (restricted, *_) = (methods(told, sections(told), facts) for facts in (whole, part))
+    assert "completed the study “A study” made 6 faces for 1 emotion (happy) on 1 head (female)" in first
+    assert "“A study”, in an export restricted to the condition “alone”, made 6 faces" in restricted
+    assert "failed one" in restricted and "failed one" not in first
+
+
+def test_a_head_of_the_study_is_named_with_its_place_in_the_tables():
+    told = context(made(template(1), 6))
+    text = " ".join(methods(told, sections(told), replace(FACTS, heads={"custom-1": "Somebody"})))
+    assert "In the tables the head Somebody is custom-1, by the SHA-256 of its identity document." in text
+
+
+def test_only_retests_are_no_faces_of_no_emotions():
+    told = context(made(template(1), 6, repetition=1))
+    first = methods(told, sections(told), FACTS)[0]
+    assert first.startswith("0 of all who completed the study “A study” made 0 faces, and 6 faces once more as a")
 
 
 def test_of_several_searches_it_is_said_which_condition_had_which():

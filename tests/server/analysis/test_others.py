@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy import stats
 
 from emogen_core.similarity.cosine import cosine_distance
 from server.analysis.others import converging, proxies
@@ -41,6 +42,16 @@ def test_who_is_far_from_all_others_is_beyond_both_or_only_beyond_people_who_nev
     level = 0.05 + far - 0.05 - row["95th percentile"]  # the percentile is .05 below it, with noise .05 above
     (row,) = rows(proxies(context(faces, levels={"a search": level})))
     assert (row["beyond"], row["beyond with noise"]) == (1, 0)
+
+
+def test_p_is_adjusted_over_the_cells():
+    minds = np.tile(MIND, (8, 1))
+    minds[:3] = [template(seed) for seed in (11, 12, 13)]
+    told = context(made(minds, 8, spread=0.02), made(MIND, 8, emotion="angry"), made(MIND, 3, emotion="sad"))
+    found = rows(proxies(told))
+    p = [row["p"] for row in found[:2]]
+    assert p[0] < 0.05 < p[1]
+    assert [row["q"] for row in found] == [*stats.false_discovery_control(p, method="bh"), None]
 
 
 def test_the_last_generation_is_as_far_as_the_finished_faces_and_the_first_is_further():

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy import stats
 
 from emogen_core.analysis.cells import lengths
 from emogen_core.analysis.icc import icc
@@ -40,6 +41,24 @@ def test_own_distances_are_held_against_two_searches_for_one_face():
     own = threshold(0.2)
     assert (row["simulated"], row["simulated with noise"]) == (own.faithful.apart.mean, own.noisy.apart.mean)
     assert row["excess"] == pytest.approx(row["own"] - row["simulated"])
+
+
+def test_p_is_adjusted_over_the_cells_and_the_text_says_how_many_are_left():
+    told = context(*twice(MINDS), *twice(template(1), emotion="angry"), *twice(template(2), emotion="sad"))
+    section = retests(told)
+    p = [row["p"] for row in rows(section)]
+    assert [row["q"] for row in rows(section)] == pytest.approx(stats.false_discovery_control(p, method="bh"))
+    count = sum(row["q"] <= 0.05 for row in rows(section))
+    assert section.methods[-1].endswith(f"over 3 cells (Benjamini & Hochberg, 1995), {count} had q ≤ .05.")
+    assert not any("q ≤" in one for one in retests(context(*twice(MINDS))).methods)
+
+
+def test_faces_that_are_all_the_same_are_the_reason():
+    same = np.tile(template(1), (10, 1))
+    parts = [made(same, 10, spread=0, repetition=at) for at in (0, 1)]
+    assert retests(context(*parts)).methods[-1] == (
+        "No reliability is told for any of 1 cell: all distances are the same."
+    )
 
 
 def test_who_made_only_one_of_both_does_not_count():

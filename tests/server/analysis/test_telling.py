@@ -2,7 +2,7 @@
 
 import pytest
 
-from emogen_core.analysis.enough import Result, too_few
+from emogen_core.analysis.enough import VARIETY, Result, too_few
 from server.analysis.telling import (
     NAMED,
     bounded,
@@ -37,6 +37,7 @@ def test_intervals_ranges_and_lists():
     assert span([0.3, None, 0.1]) == "0.100 to 0.300" and span([0.1001, 0.1]) == "0.100"
     assert [listed(list(words)) for words in ("a", "ab", "abc")] == ["a", "a and b", "a, b and c"]
     assert (counted(1, "test"), counted(1200, "test")) == ("1 test", "1,200 tests")
+    assert (counted(1, "pair of cells"), counted(3, "pair of cells")) == ("1 pair of cells", "3 pairs of cells")
 
 
 def test_ranges_of_probabilities_and_sizes_of_cells():
@@ -50,9 +51,13 @@ def test_few_are_told_one_by_one_and_many_together():
 
 
 def test_what_is_not_told_is_said():
-    assert untold(0, 3, "p") == ()
-    assert untold(1, 3, "p") == ("No p is told for 1 of 3 cells: too few people.",)
-    assert untold(3, 3, "p") == ("No p is told for any of 3 cells: too few people.",)
+    enough, few, same = Result(), Result(lacks=too_few(4)), Result(lacks=too_few(1, 2, VARIETY))
+    assert untold([enough] * 3, "p") == ()
+    assert untold([enough, few, enough], "p") == ("No p is told for 1 of 3 cells: too few people.",)
+    assert untold([same] * 3, "p") == ("No p is told for any of 3 cells: all faces are the same.",)
+    assert untold([few, same], "p", "pair of cells") == (
+        "No p is told for any of 2 pairs of cells: too few people, or all faces are the same.",
+    )
 
 
 def test_what_lacks_the_same_is_told_together_and_once():
@@ -62,3 +67,6 @@ def test_what_lacks_the_same_is_told_together_and_once():
         "a; d: an interval needs at least 5 people, got 4.", "b: an interval needs at least 5 people, got 3.",
     )  # fmt: skip
     assert lacking([("a", enough)], "an interval") == ()
+    many = [(str(at), few) for at in range(NAMED + 1)]
+    assert lacking(many, "it") == (f"All {NAMED + 1}: it needs at least 5 people, got 4.",)
+    assert lacking([*many, ("x", enough)], "it") == ("0; 1; 2; 3; 4: it needs at least 5 people, got 4.",)

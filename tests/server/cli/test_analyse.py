@@ -86,8 +86,24 @@ def test_a_head_of_the_study_is_worn_by_its_mean_faces(with_own_head):
     (own,) = (head for head in heads if head.startswith("custom-"))
     assert heads == {own, "female"}
     pictures = dict(re.findall(r'<img src="(data:[^"]+)" alt="angry, ([^,:]+)', page))
-    assert sorted(pictures.values()) == sorted(heads)
+    assert sorted(pictures.values()) == ["Somebody", "female"]
     assert any(one["name"] == "heads" for one in told["sections"])
+    assert told["heads"] == {own: "Somebody"}
+
+
+def test_a_restricted_export_says_so_everywhere(analysed, tmp_path):
+    only = {"block": "first", "condition": "plain"}
+    options = [word for name, value in only.items() for word in (f"--{name}", value)]
+    study = json.loads((analysed / "csv" / "manifest.json").read_text(encoding="utf-8"))["study"]
+    done = emogen(analysed, "export", "--study", study, *options, "--out", str(tmp_path / "part.zip"))
+    assert done.returncode == 0, done.stderr
+    done = emogen(tmp_path, "analyse", str(tmp_path / "part.zip"), "--simulated", "--out", str(tmp_path / "out"))
+    assert done.returncode == 0, done.stderr
+    words = "the condition “plain” and trials of the block “first”"
+    told = json.loads((tmp_path / "out" / "about.json").read_text(encoding="utf-8"))
+    assert (told["filters"], told["restricted"]) == (only, words)
+    for name in ("methods.txt", "report.html"):
+        assert words in (tmp_path / "out" / name).read_text(encoding="utf-8"), name
 
 
 def test_nobody_to_count_is_one_sentence_and_writes_nothing(analysed, tmp_path):

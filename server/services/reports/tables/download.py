@@ -22,8 +22,8 @@ PEOPLE_AT_ONCE = {"faces": 8, "stimuli": 16}
 MOST_AT_ONCE = 64
 """Participations of a page, which is read in one short transaction and is all that is in memory."""
 
-ROWS_AT_ONCE = 1024
-"""Rows that are text at the same time, which is several times what they are as numbers."""
+ROWS_AT_ONCE = 512
+"""Rows that are text at the same time: 4 MB of faces, which stay near the processor while they are packed."""
 
 
 @dataclass(slots=True)

@@ -135,9 +135,12 @@ def zipped(entries: Iterable[Entry], tally: Tally) -> Iterator[bytes]:
 
 
 def _quicken(target: Any) -> None:
-    """Let another library deflate, several times as fast as the one that zipfile brings and offers no choice of."""
+    """Let another library deflate, several times as fast as the one that zipfile brings and offers no choice of.
+
+    Its level 1 makes a zip of faces as JSON Lines a few percent faster than 2, and 1 % larger.
+    """
     if target._compressor is not None:
-        target._compressor = isal_zlib.compressobj(2, isal_zlib.DEFLATED, -isal_zlib.MAX_WBITS)
+        target._compressor = isal_zlib.compressobj(1, isal_zlib.DEFLATED, -isal_zlib.MAX_WBITS)
 
 
 def write_zip(entries: Iterable[Entry], path: Path) -> None:
