@@ -58,10 +58,11 @@ _MEMBERS = {recipe.name: recipe.members for recipe in RECIPES}
 
 @dataclass(frozen=True, slots=True)
 class Head:
-    """A neutral (N, 3) of the render mesh, with its left eyeball's centre."""
+    """A neutral (N, 3) of the render mesh, with its left eyeball's centre and radius; 0 for a head without eyes."""
 
     neutral: Mesh
     eye_centre: NDArray[np.float64]
+    eye_radius: float = RADIUS
 
 
 def gene_offsets(core: Meshes, genes: tuple[str, ...] = tuple(_MEMBERS)) -> Meshes:

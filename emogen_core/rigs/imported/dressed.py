@@ -1,0 +1,219 @@
+"""The bundled look on a foreign head: every vertex that is drawn takes what its place on the bundled head wears.
+
+Nothing is painted anew. Skin, brows, hair, lips and wrinkles come with the texture's place; baked light, hair's
+thickness and wrinkle masks come with them. So any appearance can be worn, and textures are those of the bundled head.
+Teeth and tongue take the place of a bundled tooth and tongue; an eyeball is laid out about its own cornea.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from emogen_core.rendering.look import Layer, Look, topology_hash
+from emogen_core.rendering.look_check import check_look
+from emogen_core.rigs.eyeballs import RADIUS
+from emogen_core.rigs.imported.match import Placed, islands, islands_of, nearest
+from emogen_core.rigs.imported.overlay import Skin
+from emogen_core.rigs.imported.parts import FLESH
+from emogen_core.rigs.look.atlas import EYE_DEGREES
+from emogen_core.rigs.look.seen import seen_layers
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from numpy.typing import NDArray
+
+    from emogen_core.face.rig import Rig
+    from emogen_core.rigs.imported.gaze import Eyeball
+
+    Floats = NDArray[np.float64]
+    Indices = NDArray[np.intp]
+
+# Lashes are never shown quite at their roots: there the texture of the other lid's begins.
+_LASH_EDGE = 0.05
+
+
+@dataclass(frozen=True, eq=False)
+class _Piece:
+    """A part of the skin layer: rig vertices, (t, 3) triangles into them, and where they are on the bundled layer."""
+
+    source: Indices
+    triangles: Indices
+    placed: Placed
+
+
+@dataclass(frozen=True, eq=False)
+class Dresser:
+    """What a foreign head is dressed from.
+
+    Attributes:
+        rig: the foreign rig.
+        look: the bundled one.
+        template: the bundled rig.
+        warped: its skin, lying on the foreign head's.
+        flesh: the foreign head's skin, with what lies in mouth and sockets.
+        eyes: ``left`` and ``right``.
+    """
+
+    rig: Rig
+    look: Look
+    template: Rig
+    warped: Skin
+    flesh: Skin
+    eyes: Mapping[str, Eyeball]
+
+    def dressed(self, style: str, edges: Mapping[str, NDArray[np.int32]]) -> Look:
+        """Return the look of the foreign rig.
+
+        Args:
+            style: the bundled identity whose skin, eyes and hair are worn where nobody says otherwise.
+            edges: see `Look.edges`.
+        """
+        parts = [*self._flesh(), *self._teeth(), *self._tongue()]
+        layers = {"skin": _joined(self.look.layers["skin"], parts)}
+        layers |= {name: layer for name, layer in (("eyes", self._eyes()), ("lashes", self._lashes())) if layer}
+        placed = Placed(
+            np.concatenate([part.placed.corners for part in parts]),
+            np.concatenate([part.placed.shares for part in parts]),
+        )
+        kept, left = seen_layers(self.rig, layers)
+        at = Placed(placed.corners[left["skin"]], placed.shares[left["skin"]])
+        made = Look(
+            name=f"{self.look.name} on {self.rig.name}",
+            topology=topology_hash(self.rig),
+            layers=kept,
+            styles=self.look.styles,
+            default=style,
+            textures=self.look.textures,
+            bakes={name: at.of(bake).astype(np.float32) for name, bake in self.look.bakes.items()},
+            wrinkle_masks=at.of(self.look.wrinkle_masks).astype(np.float32),
+            wrinkle_drivers=self.look.wrinkle_drivers,
+            wrinkle_rest=self.look.wrinkle_rest,
+            edges=edges,
+            paint={**self.look.paint, "scalp": at.of(self.look.paint["scalp"]).astype(np.float16)},
+        )
+        check_look(made)
+        return made
+
+    def _flesh(self) -> Iterator[_Piece]:
+        """Yield the skin, mouth and sockets, an island of the texture at a time."""
+        template = islands(self.look.layers["skin"], self.warped)
+        first, last = zip(*(self.rig.parts[name] for name in FLESH), strict=True)
+        triangles = self.rig.triangles[: max(last)]
+        rows = np.arange(len(triangles))
+        own = {name: (rows >= a) & (rows < b) for name, a, b in zip(FLESH, first, last, strict=True)}
+        target = Skin(self.flesh.vertices, triangles, self.flesh.drop)
+        number = islands_of(target, template, own)
+        features = self.flesh.features()
+        for island in range(len(template.part)):
+            chosen = triangles[number == island]
+            if len(chosen):
+                source, local = np.unique(chosen, return_inverse=True)
+                surface = replace(template.surface, triangles=template.surface.triangles[template.number == island])
+                placed = nearest(surface, features[source], target.vertices[source])
+                yield _Piece(source.astype(np.intp), local.reshape(-1, 3), placed)
+
+    def _teeth(self) -> Iterator[_Piece]:
+        """Yield each jaw's teeth, coloured by how far they are from the middle, crowns everywhere."""
+        for name in ("teeth_upper", "teeth_lower"):
+            yield from self._along(name, name)
+
+    def _tongue(self) -> Iterator[_Piece]:
+        yield from self._along("tongue", "tongue")
+
+    def _along(self, part: str, worn: str) -> Iterator[_Piece]:
+        """Yield a part whose vertices take the place of the bundled part's vertex at the same share of its extent."""
+        rows = self.rig.triangles[slice(*self.rig.parts.get(part, (0, 0)))]
+        if not len(rows):
+            return
+        layer = self.look.layers["skin"]
+        theirs = np.flatnonzero(np.isin(layer.source, _vertices(self.template, worn)))
+        source, local = np.unique(rows, return_inverse=True)
+        here = _shares(self.rig.neutral(self.rig.identities[0])[source])
+        there = _shares(self.template.neutral(self.template.identities[0])[layer.source[theirs]])
+        found = theirs[cKDTree(there).query(here)[1]]
+        placed = Placed(np.repeat(found[:, None], 3, 1), np.tile([1.0, 0.0, 0.0], (len(found), 1)))
+        yield _Piece(source.astype(np.intp), local.reshape(-1, 3), placed)
+
+    def _eyes(self) -> Layer | None:
+        """Return the eyeballs, each laid out about the axis of its cornea."""
+        names = [f"eye_{side}" for side in self.eyes]
+        rows = [self.rig.triangles[slice(*self.rig.parts[name])] for name in names]
+        if not rows:
+            return None
+        source, local = np.unique(np.concatenate(rows), return_inverse=True)
+        uv = np.full((len(source), 2), 0.5)
+        neutral = self.rig.neutral(self.rig.identities[0])
+        for side, eye in self.eyes.items():
+            chosen = np.isin(source, _vertices(self.rig, f"eye_{side}"))
+            uv[chosen] += _polar(neutral[source[chosen]] - eye.centre, eye, 1 if side == "left" else -1)
+        surface = np.tile(np.array([0, 1, 0], np.float32), (len(source), 1))
+        return Layer(source.astype(np.int32), uv.astype(np.float32), local.reshape(-1, 3).astype(np.int32), surface)
+
+    def _lashes(self) -> Layer | None:
+        """Return the lashes: along by their place between the corners of the eye, up by how far off the skin."""
+        rows = self.rig.triangles[slice(*self.rig.parts.get("lashes", (0, 0)))]
+        if not len(rows) or len(self.eyes) < 2:
+            return None
+        source, local = np.unique(rows, return_inverse=True)
+        neutral = self.rig.neutral(self.rig.identities[0]).astype(np.float64)
+        points = neutral[source]
+        off = cKDTree(self.flesh.vertices[self.flesh.used]).query(points)[0]
+        uv = np.zeros((len(source), 2))
+        for piece in _sides(points, self.eyes):
+            across = np.abs(points[piece, 0])
+            along = (across - across.min()) / max(float(np.ptp(across)), 1e-6)
+            up = np.clip(off[piece] / max(float(np.quantile(off[piece], 0.98)), 1e-6), _LASH_EDGE, 1)
+            centre = np.mean([eye.centre[1] for eye in self.eyes.values()])
+            upper = points[piece, 1].mean() > centre
+            uv[piece] = np.column_stack([along, (0.5 if upper else 0.0) + 0.5 * up])
+        surface = np.tile(np.array([0.3, 0, 0], np.float32), (len(source), 1))
+        return Layer(source.astype(np.int32), uv.astype(np.float32), local.reshape(-1, 3).astype(np.int32), surface)
+
+
+def _sides(points: Floats, eyes: Mapping[str, Eyeball]) -> Iterator[Indices]:
+    """Yield the vertices of each lid's lashes: left and right, above and below the middle of the eye."""
+    for eye in eyes.values():
+        own = np.sign(points[:, 0]) == np.sign(eye.centre[0])
+        for above in (True, False):
+            chosen = np.flatnonzero(own & ((points[:, 1] > eye.centre[1] - 2.0) == above))
+            if len(chosen):
+                yield chosen
+
+
+def _polar(points: Floats, eye: Eyeball, sign: int) -> Floats:
+    """Return (n, 2) where on the eye's texture points about an eyeball's centre lie, from its middle."""
+    length = np.maximum(np.linalg.norm(points, axis=1, keepdims=True), 1e-9)
+    across = np.cross([0.0, 1.0, 0.0], eye.axis)
+    across /= np.linalg.norm(across)
+    up = np.cross(eye.axis, across)
+    cosine = np.clip((points / length) @ eye.axis, -1, 1)
+    degrees = np.minimum(np.degrees(np.arccos(cosine)) * eye.radius / RADIUS, EYE_DEGREES)
+    way = np.stack([sign * (points @ across), points @ up], 1)
+    way /= np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-9)
+    return np.asarray(degrees[:, None] / EYE_DEGREES / 2 * way)
+
+
+def _shares(points: NDArray[np.floating]) -> Floats:
+    """Return (n, 3) where points lie in the box around them, 0 to 1."""
+    low, high = points.min(0), points.max(0)
+    return np.asarray((points - low) / np.maximum(high - low, 1e-9), np.float64)
+
+
+def _vertices(rig: Rig, part: str) -> NDArray[np.int32]:
+    return np.unique(rig.triangles[slice(*rig.parts[part])])
+
+
+def _joined(worn: Layer, parts: list[_Piece]) -> Layer:
+    starts = np.cumsum([0, *(len(part.source) for part in parts)])
+    placed = [part.placed for part in parts]
+    return Layer(
+        np.concatenate([part.source for part in parts]).astype(np.int32),
+        np.concatenate([each.of(worn.uv) for each in placed]).astype(np.float32),
+        np.concatenate([part.triangles + start for part, start in zip(parts, starts, strict=False)]).astype(np.int32),
+        np.concatenate([each.of(worn.surface) for each in placed]).astype(np.float32),
+    )
