@@ -35,19 +35,23 @@ Head = Annotated[
 ]
 Random = Annotated[int, typer.Option(min=0, max=50, help="How many random heads its identity modes make.")]
 Seed = Annotated[int, typer.Option(min=0, help="Of the random heads.")]
+Combinations = Annotated[
+    bool, typer.Option("--combinations/--no-combinations", help="Derive correctives of pairs, which takes minutes.")
+]
 Force = Annotated[bool, typer.Option("--force", help="Write over files that are there.")]
 
 
 def import_(  # noqa: PLR0913, PLR0917 - typer reads the options from the signature
     source: Source, out: Out, unit: Unit = "", neutral: Neutral = "", name: Name = "", wears: Wears = "female",
-    head: Head = None, random: Random = 0, seed: Seed = 1, force: Force = False, json_: Json = False,
+    head: Head = None, random: Random = 0, seed: Seed = 1, combinations: Combinations = True,
+    force: Force = False, json_: Json = False,
 ) -> None:  # fmt: skip
     """Make a rig of somebody else's head, with a look, and say what was found, guessed and missing."""
     look = out.with_suffix(".look")
     with plainly(), threadpool_limits(1):
         _check_free((out, look), force)
         making = import_module("emogen_core.rigs.imported.assemble")
-        wishes = making.Wishes(name, unit, neutral, wears, _heads(head or ()), random, seed)
+        wishes = making.Wishes(name, unit, neutral, wears, _heads(head or ()), random, seed, combinations)
         made: Imported = making.import_head(source, wishes)
         rig, dressed = _stored(made, out, look)
     report = {**_facts(rig, out), "look": str(look), "look_hash": dressed, **made.findings.to_document()}

@@ -13,9 +13,11 @@ import numpy as np
 from emogen_core.errors import InvalidInputError, expected
 from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.face.rig import Rig
+from emogen_core.rendering.plain import plain_look
 from emogen_core.rendering.setup import bundled_look
 from emogen_core.rigs.foreign.mirror import mirrored
 from emogen_core.rigs.foreign.read import read_head
+from emogen_core.rigs.imported.combined import with_combinations
 from emogen_core.rigs.imported.dressed import Dresser
 from emogen_core.rigs.imported.emotions import emotion_sets
 from emogen_core.rigs.imported.front import Front
@@ -24,7 +26,7 @@ from emogen_core.rigs.imported.genes import GeneShapes, make_genes
 from emogen_core.rigs.imported.heads import FIRST, mixed_head, random_weights
 from emogen_core.rigs.imported.match import islands, islands_of
 from emogen_core.rigs.imported.mouth import drop_of, freed, with_collision_correctives
-from emogen_core.rigs.imported.overlay import Skin, laid_over
+from emogen_core.rigs.imported.overlay import LEAST_SHARED, Skin, laid_over
 from emogen_core.rigs.imported.parts import FLESH, Parts, sort_parts
 
 if TYPE_CHECKING:
@@ -55,6 +57,7 @@ class Wishes:
         heads: name -> weights of identity modes, for each head beside the neutral.
         random: how many random heads there are beside these.
         seed: of the random heads.
+        combinations: whether correctives of pairs of genes are derived, which takes minutes.
     """
 
     name: str = ""
@@ -64,6 +67,7 @@ class Wishes:
     heads: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     random: int = 0
     seed: int = 1
+    combinations: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,11 +98,16 @@ def import_head(path: Path, wishes: Wishes) -> Imported:
     eyes = _eyes(head.model, parts)
     drop = drop_of(made.shapes, parts.vertices(*FLESH), len(head.model.vertices))
     front = Front(head.model.vertices.astype(np.float64), parts.of(*FLESH), parts.of("eye_left", "eye_right"), drop)
-    warped = _overlay(template, front)
-    parts = _classified(parts, look, front, warped)
+    warped = _overlay(template, wishes.wears, front, head.findings)
+    if warped:
+        parts = _classified(parts, look, front, warped)
     shapes = with_turning_eyes(head.model.vertices, made.shapes, eyes, head.findings)
     rig = _bare(head, replace(made, shapes=shapes), parts, wishes)
+    if wishes.combinations:
+        rig = with_combinations(rig, made.correctives, eyes, head.findings)
     rig = freed(with_collision_correctives(rig, drop, head.findings), head.findings)
+    if not warped:
+        return Imported(rig, plain_look(rig), head.findings)
     flesh = Skin(front.vertices, front.skin, drop)
     dresser = Dresser(rig, look, template, warped, flesh, eyes)
     return Imported(rig, dresser.dressed(wishes.wears, front.edges()), head.findings)
@@ -113,17 +122,26 @@ def _eyes(model: HeadModel, parts: Parts) -> dict[str, Eyeball]:
     return {side: find_eyeball(model.vertices, own) for side, own in rows.items() if len(own) > 8}
 
 
-def _overlay(template: Rig, front: Front) -> Skin:
-    """Return the bundled head's flesh, lying on the foreign head's."""
+def _overlay(template: Rig, wears: str, front: Front, findings: Findings) -> Skin | None:
+    """Return the bundled head's flesh, lying on the foreign head's; none where too little of a face is found."""
     first, last = template.parts["skin"][0], template.parts["sockets"][1]
     flesh = template.triangles[first:last]
     offsets = {"jawOpen": template.offsets[template.shape_names.index("jawOpen")]}
-    neutral = template.neutral(template.identities[0]).astype(np.float64)
+    neutral = template.neutral(wears).astype(np.float64)
     drop = drop_of(offsets, np.unique(flesh).astype(np.intp), len(neutral))
     balls = [template.triangles[slice(*template.parts[f"eye_{side}"])] for side in SIDES]
     own = Front(neutral, flesh, np.concatenate(balls), drop)
     target = Skin(front.vertices, front.skin, front.drop)
-    return laid_over(Skin(neutral, flesh, drop), target, own.landmarks(), front.landmarks())
+    places, goals = own.landmarks(), front.landmarks()
+    shared = len(set(places) & set(goals))
+    if shared < LEAST_SHARED:
+        findings.missing.append(
+            f"Only {shared} of {len(places)} places of a face were found, for want of eyes and jaw: its look is in flat"
+            " colours, and nothing is known of its mouth."
+        )
+        return None
+    findings.guessed.append(f"The bundled head was laid over it by {shared} of {len(places)} places of a face.")
+    return laid_over(Skin(neutral, flesh, drop), target, places, goals)
 
 
 def _classified(parts: Parts, look: Look, front: Front, warped: Skin) -> Parts:

@@ -162,10 +162,10 @@ class Dresser:
         source, local = np.unique(rows, return_inverse=True)
         neutral = self.rig.neutral(self.rig.identities[0]).astype(np.float64)
         points = neutral[source]
-        off = cKDTree(self.flesh.vertices[self.flesh.used]).query(points)[0]
+        off = np.asarray(cKDTree(self.flesh.vertices[self.flesh.used]).query(points)[0], np.float64)
         uv = np.zeros((len(source), 2))
         for piece in _sides(points, self.eyes):
-            across = np.abs(points[piece, 0])
+            across = np.asarray(np.abs(points[piece, 0]), np.float64)
             along = (across - across.min()) / max(float(np.ptp(across)), 1e-6)
             up = np.clip(off[piece] / max(float(np.quantile(off[piece], 0.98)), 1e-6), _LASH_EDGE, 1)
             centre = np.mean([eye.centre[1] for eye in self.eyes.values()])

@@ -29,7 +29,7 @@ _STEP, _ROWS = 0.15, 2
 _LID_SHARES = (0.15, 0.35, 0.5, 0.65, 0.85)
 _LIP_SHARES = np.linspace(0.0, 1.0, 9)
 _FOREHEAD = (25.0, 45.0, 65.0)
-_CHEEK = 28.0
+_CHEEK, _WING = 28.0, 0.25
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,19 +180,20 @@ class Front:
         for side, sign in (("left", 1), ("right", -1)):
             yield f"{side} ear", level[(sign * level[:, 0]).argmax()]
         found = dict(self._profile())
-        height = 0.6 * found["nose base"][1] + 0.4 * found["nose tip"][1]
+        height = 0.2 * found["nose base"][1] + 0.8 * found["nose tip"][1]
         row = self._picture[1][round((_TOP - height) / PITCH)]
         for side, sign in (("left", 1), ("right", -1)):
-            yield f"{side} nose wing", _half_way(row[np.isfinite(row[:, 0])], sign)
+            yield f"{side} nose wing", _wing(row[np.isfinite(row[:, 0])], sign)
 
 
-def _half_way(row: Floats, sign: int) -> Floats:
-    """Return where a row across the nose has fallen half the way from its ridge to the cheek."""
+def _wing(row: Floats, sign: int) -> Floats:
+    """Return where a row across the nose has fallen from its ridge nearly to the cheek."""
     out = row[(sign * row[:, 0] >= 0) & (sign * row[:, 0] < _CHEEK)]
     out = out[np.argsort(sign * out[:, 0])]
-    if len(out) < 4:
+    cheek = out[-1, 2] if len(out) else 0.0
+    if len(out) < 4 or out[0, 2] <= cheek:
         return np.full(3, np.nan)
-    return np.asarray(out[int(np.argmax(out[:, 2] < (out[0, 2] + out[-1, 2]) / 2))])
+    return np.asarray(out[np.flatnonzero(out[:, 2] > cheek + _WING * (out[0, 2] - cheek))[-1]])
 
 
 def _most(values: Floats, where: NDArray[np.bool_]) -> int:

@@ -37,7 +37,8 @@ _SLIDE = 0.25
 # From so many millimetres on, what is nearest no longer draws.
 _FAR = 14.0
 _HELD = 30.0  # weight of a landmark, where a vertex that is drawn has 1
-_LEAST_SHARED = 12
+LEAST_SHARED = 20
+"""Places of a face that both heads must have."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,8 +91,8 @@ def laid_over(template: Skin, target: Skin, places: Mapping[str, Floats], goals:
         InvalidInputError: too few places have been found on both.
     """
     shared = sorted(set(places) & set(goals))
-    if len(shared) < _LEAST_SHARED:
-        raise InvalidInputError(f"head: {expected(f'{_LEAST_SHARED} places of a face to be found', shared)}")
+    if len(shared) < LEAST_SHARED:
+        raise InvalidInputError(f"head: {expected(f'{LEAST_SHARED} places of a face to be found', shared)}")
     here, there = (np.array([one[name] for name in shared]) for one in (places, goals))
     spline = RBFInterpolator(here, there, kernel="thin_plate_spline", smoothing=0.5)
     warped = template.moved(np.asarray(spline(template.vertices), np.float64))
