@@ -52,6 +52,8 @@ def import_(  # noqa: PLR0913, PLR0917 - typer reads the options from the signat
         _check_free((out, look), force)
         making = import_module("emogen_core.rigs.imported.assemble")
         wishes = making.Wishes(name, unit, neutral, wears, _heads(head or ()), random, seed, combinations)
+        if combinations:
+            typer.echo("Correctives are derived, which takes some minutes.", err=True)
         made: Imported = making.import_head(source, wishes)
         rig, dressed = _stored(made, out, look)
     report = {**_facts(rig, out), "look": str(look), "look_hash": dressed, **made.findings.to_document()}

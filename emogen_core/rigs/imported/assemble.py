@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from emogen_core.errors import InvalidInputError, expected
 from emogen_core.face.bundled import load_bundled_rig
@@ -27,7 +28,8 @@ from emogen_core.rigs.imported.heads import FIRST, mixed_head, random_weights
 from emogen_core.rigs.imported.match import islands, islands_of
 from emogen_core.rigs.imported.mouth import drop_of, freed, with_collision_correctives
 from emogen_core.rigs.imported.overlay import LEAST_SHARED, Skin, laid_over
-from emogen_core.rigs.imported.parts import FLESH, Parts, sort_parts
+from emogen_core.rigs.imported.parts import FLESH, Parts, pieces, sort_parts
+from emogen_core.rigs.rest import BROWS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -41,6 +43,8 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
+# Part of the flesh -> in how many pieces it is.
+_HOLLOWS = {"mouth": 1, "sockets": 2}
 # Millimetres within which vertices are mirror images.
 _SYMMETRIC = 0.05
 
@@ -103,9 +107,11 @@ def import_head(path: Path, wishes: Wishes) -> Imported:
         parts = _classified(parts, look, front, warped)
     shapes = with_turning_eyes(head.model.vertices, made.shapes, eyes, head.findings)
     rig = _bare(head, replace(made, shapes=shapes), parts, wishes)
+    if warped:
+        rig = replace(rig, regions={BROWS: _brows(template, warped, rig)})
     if wishes.combinations:
         rig = with_combinations(rig, made.correctives, eyes, head.findings)
-    rig = freed(with_collision_correctives(rig, drop, head.findings), head.findings)
+    rig = freed(with_collision_correctives(rig, drop, head.findings), drop, head.findings)
     if not warped:
         return Imported(rig, plain_look(rig), head.findings)
     flesh = Skin(front.vertices, front.skin, drop)
@@ -144,6 +150,13 @@ def _overlay(template: Rig, wears: str, front: Front, findings: Findings) -> Ski
     return laid_over(Skin(neutral, flesh, drop), target, places, goals)
 
 
+def _brows(template: Rig, warped: Skin, rig: Rig) -> NDArray[np.int32]:
+    """Return the vertices of a rig's skin that lie nearest to those under the bundled brows."""
+    skin = np.unique(rig.triangles[slice(*rig.parts["skin"])])
+    points = warped.vertices[template.regions[BROWS]]
+    return np.unique(skin[cKDTree(rig.neutral(FIRST)[skin]).query(points)[1]]).astype(np.int32)
+
+
 def _classified(parts: Parts, look: Look, front: Front, warped: Skin) -> Parts:
     """Return parts in which mouth and sockets are told from the skin, by where the bundled head has them."""
     missing = [name for name in FLESH if name not in parts.named]
@@ -154,6 +167,12 @@ def _classified(parts: Parts, look: Look, front: Front, warped: Skin) -> Parts:
     allowed = {name: np.full(len(skin), name == "skin" or name in missing) for name in FLESH}
     number = islands_of(Skin(front.vertices, skin, front.drop), template, allowed)
     part = np.array(template.part)[number]
+    for name, count in _HOLLOWS.items():
+        # Nostrils and ears are hollow too, and no mouths.
+        inside = np.flatnonzero(part == name)
+        piece = pieces(skin[inside])
+        largest = np.argsort(-np.bincount(piece, minlength=1), kind="stable")[:count]
+        part[inside[~np.isin(piece, largest)]] = "skin"
     split = {name: np.concatenate([skin[part == name], parts.of(name)[:0]]) for name in ("skin", *missing)}
     return parts.with_flesh({**{name: parts.of(name) for name in FLESH}, **split})
 

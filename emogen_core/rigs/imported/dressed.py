@@ -17,9 +17,10 @@ from emogen_core.rendering.look import Layer, Look, topology_hash
 from emogen_core.rendering.look_check import check_look
 from emogen_core.rigs.eyeballs import RADIUS
 from emogen_core.rigs.imported.match import Placed, islands, islands_of, nearest
+from emogen_core.rigs.imported.openness import darkening, openness
 from emogen_core.rigs.imported.overlay import Skin
-from emogen_core.rigs.imported.parts import FLESH
-from emogen_core.rigs.look.atlas import EYE_DEGREES
+from emogen_core.rigs.imported.parts import FLESH, pieces
+from emogen_core.rigs.look.atlas import EYE_DEGREES, TEETH_A_JAW, teeth_box
 from emogen_core.rigs.look.seen import seen_layers
 
 if TYPE_CHECKING:
@@ -35,6 +36,11 @@ if TYPE_CHECKING:
 
 # Lashes are never shown quite at their roots: there the texture of the other lid's begins.
 _LASH_EDGE = 0.05
+# Lids meet so far below the middle of the eye, millimetres.
+_LIDS_MEET = -2.0
+# Where crowns lie on the box of a jaw's teeth, as shares of its height.
+_CROWN = (0.60, 0.90)
+_OPENINGS = 9.0  # millimetres
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +95,7 @@ class Dresser:
             styles=self.look.styles,
             default=style,
             textures=self.look.textures,
-            bakes={name: at.of(bake).astype(np.float32) for name, bake in self.look.bakes.items()},
+            bakes=self._bakes(kept["skin"], at),
             wrinkle_masks=at.of(self.look.wrinkle_masks).astype(np.float32),
             wrinkle_drivers=self.look.wrinkle_drivers,
             wrinkle_rest=self.look.wrinkle_rest,
@@ -98,6 +104,29 @@ class Dresser:
         )
         check_look(made)
         return made
+
+    def _bakes(self, layer: Layer, at: Placed) -> dict[str, NDArray[np.float32]]:
+        """Return the bundled light at the layer's vertices, dimmed where this head is deep and that one is not."""
+        skin = np.unique(self.rig.triangles[slice(*self.rig.parts["skin"])]).astype(np.intp)
+        flesh = self.rig.triangles[: max(self.rig.parts[name][1] for name in FLESH)]
+        dim = np.ones(self.rig.offsets.shape[1])
+        dim[skin] = darkening(openness(self.rig.neutral(self.rig.identities[0]), flesh, skin))
+        # Eyelids and lips are deep in themselves; the bundled head's are as deep.
+        dim[self._near_openings(skin)] = 1
+        dimmed = {}
+        for name, bake in self.look.bakes.items():
+            light = at.of(bake).astype(np.float32)
+            light[:, :2] *= dim[layer.source, None]
+            dimmed[name] = light
+        return dimmed
+
+    def _near_openings(self, skin: Indices) -> Indices:
+        """Return the vertices of the skin next to where it ends, at the lips and the lids."""
+        neutral = self.rig.neutral(self.rig.identities[0])
+        rims = np.intersect1d(skin, np.concatenate([_vertices(self.rig, name) for name in ("mouth", "sockets")]))
+        if not len(rims):
+            return skin[:0]
+        return skin[cKDTree(neutral[rims]).query(neutral[skin])[0] < _OPENINGS]
 
     def _flesh(self) -> Iterator[_Piece]:
         """Yield the skin, mouth and sockets, an island of the texture at a time."""
@@ -118,23 +147,32 @@ class Dresser:
                 yield _Piece(source.astype(np.intp), local.reshape(-1, 3), placed)
 
     def _teeth(self) -> Iterator[_Piece]:
-        """Yield each jaw's teeth, coloured by how far they are from the middle, crowns everywhere."""
+        """Yield each jaw's teeth: crowns everywhere, as white as the bundled ones so far from the middle.
+
+        The bundled gums and the dark lines between its teeth are painted, and would fall anywhere on others.
+        """
+        layer = self.look.layers["skin"]
         for name in ("teeth_upper", "teeth_lower"):
-            yield from self._along(name, name)
+            theirs = np.flatnonzero(np.isin(layer.source, _vertices(self.template, name)))
+            left, bottom, right, top = teeth_box(name)
+            across = (layer.uv[theirs, 0] - left) / (right - left) * TEETH_A_JAW % 1
+            down = (layer.uv[theirs, 1] - bottom) / (top - bottom)
+            crown = (np.abs(across - 0.5) < 0.3) & (down > _CROWN[0]) & (down < _CROWN[1])
+            yield from self._along(name, theirs[crown], axes=(0,))
 
     def _tongue(self) -> Iterator[_Piece]:
-        yield from self._along("tongue", "tongue")
+        layer = self.look.layers["skin"]
+        yield from self._along("tongue", np.flatnonzero(np.isin(layer.source, _vertices(self.template, "tongue"))))
 
-    def _along(self, part: str, worn: str) -> Iterator[_Piece]:
-        """Yield a part whose vertices take the place of the bundled part's vertex at the same share of its extent."""
+    def _along(self, part: str, theirs: Indices, axes: tuple[int, ...] = (0, 1, 2)) -> Iterator[_Piece]:
+        """Yield a part whose vertices each take the place of one of theirs, at the same share of the extent."""
         rows = self.rig.triangles[slice(*self.rig.parts.get(part, (0, 0)))]
         if not len(rows):
             return
         layer = self.look.layers["skin"]
-        theirs = np.flatnonzero(np.isin(layer.source, _vertices(self.template, worn)))
         source, local = np.unique(rows, return_inverse=True)
-        here = _shares(self.rig.neutral(self.rig.identities[0])[source])
-        there = _shares(self.template.neutral(self.template.identities[0])[layer.source[theirs]])
+        here = _shares(self.rig.neutral(self.rig.identities[0])[source][:, axes])
+        there = _shares(self.template.neutral(self.template.identities[0])[layer.source[theirs]][:, axes])
         found = theirs[cKDTree(there).query(here)[1]]
         placed = Placed(np.repeat(found[:, None], 3, 1), np.tile([1.0, 0.0, 0.0], (len(found), 1)))
         yield _Piece(source.astype(np.intp), local.reshape(-1, 3), placed)
@@ -164,23 +202,27 @@ class Dresser:
         points = neutral[source]
         off = np.asarray(cKDTree(self.flesh.vertices[self.flesh.used]).query(points)[0], np.float64)
         uv = np.zeros((len(source), 2))
-        for piece in _sides(points, self.eyes):
+        # A lash belongs to one lid as a whole, wherever its ends are.
+        number = np.zeros(len(source), np.intp)
+        number[local.reshape(-1, 3)] = pieces(rows)[:, None]
+        middle = np.bincount(number, points[:, 1]) / np.maximum(np.bincount(number), 1)
+        for piece in _sides(points, middle[number], self.eyes):
             across = np.asarray(np.abs(points[piece, 0]), np.float64)
             along = (across - across.min()) / max(float(np.ptp(across)), 1e-6)
             up = np.clip(off[piece] / max(float(np.quantile(off[piece], 0.98)), 1e-6), _LASH_EDGE, 1)
-            centre = np.mean([eye.centre[1] for eye in self.eyes.values()])
-            upper = points[piece, 1].mean() > centre
+            centre = float(np.mean([eye.centre[1] for eye in self.eyes.values()]))
+            upper = middle[number[piece]].mean() > centre + _LIDS_MEET
             uv[piece] = np.column_stack([along, (0.5 if upper else 0.0) + 0.5 * up])
         surface = np.tile(np.array([0.3, 0, 0], np.float32), (len(source), 1))
         return Layer(source.astype(np.int32), uv.astype(np.float32), local.reshape(-1, 3).astype(np.int32), surface)
 
 
-def _sides(points: Floats, eyes: Mapping[str, Eyeball]) -> Iterator[Indices]:
-    """Yield the vertices of each lid's lashes: left and right, above and below the middle of the eye."""
+def _sides(points: Floats, heights: Floats, eyes: Mapping[str, Eyeball]) -> Iterator[Indices]:
+    """Yield the vertices of each lid's lashes: left and right, by (n,) heights above and below the middle."""
     for eye in eyes.values():
         own = np.sign(points[:, 0]) == np.sign(eye.centre[0])
         for above in (True, False):
-            chosen = np.flatnonzero(own & ((points[:, 1] > eye.centre[1] - 2.0) == above))
+            chosen = np.flatnonzero(own & ((heights > eye.centre[1] + _LIDS_MEET) == above))
             if len(chosen):
                 yield chosen
 
@@ -199,7 +241,7 @@ def _polar(points: Floats, eye: Eyeball, sign: int) -> Floats:
 
 
 def _shares(points: NDArray[np.floating]) -> Floats:
-    """Return (n, 3) where points lie in the box around them, 0 to 1."""
+    """Return (n, k) where points lie in the box around them, 0 to 1."""
     low, high = points.min(0), points.max(0)
     return np.asarray((points - low) / np.maximum(high - low, 1e-9), np.float64)
 

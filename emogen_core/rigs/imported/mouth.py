@@ -13,6 +13,7 @@ from emogen_core.rendering.normals import NormalField
 from emogen_core.rigs.canvas import smoothstep
 from emogen_core.rigs.collision_bake import TOLERANCE, settled
 from emogen_core.rigs.collision_shapes import COLLISION_SHAPES, collision_offsets, mouth_regions
+from emogen_core.rigs.lips import close_slits, visible_teeth
 from emogen_core.rigs.topology import RigTopology
 
 if TYPE_CHECKING:
@@ -31,6 +32,7 @@ _LOW = (0.155, 0.57)
 _INNER = -3.0
 # Moved by more than this, millimetres, a neutral was changed.
 _MOVED = 0.01
+_ROUNDS = 4
 
 
 def drop_of(shapes: Mapping[str, NDArray[np.float32]], flesh: NDArray[np.intp], count: int) -> Floats:
@@ -78,14 +80,19 @@ def with_collision_correctives(rig: Rig, drop: Floats, findings: Findings) -> Ri
     )
 
 
-def freed(rig: Rig, findings: Findings) -> Rig:
-    """Return a rig whose heads do not collide at rest, or every face of theirs would be corrected."""
+def freed(rig: Rig, drop: Floats, findings: Findings) -> Rig:
+    """Return a rig whose heads neither collide nor show a tooth at rest, or every face of theirs would be corrected."""
     if not has_regions(rig):
         return rig
     anchors, target = judge_anchors(rig), target_faces(rig)
+    topology, low = RigTopology(rig), lower_side(drop)
     neutrals, told = {}, []
     for name, neutral in rig.neutrals.items():
-        mesh = settled(rig, neutral, anchors, target)
+        mesh = neutral.astype(np.float64)
+        for _ in range(_ROUNDS):
+            mesh = settled(rig, close_slits(topology, low, mesh), anchors, target)
+            if not len(visible_teeth(topology, mesh)):
+                break
         moved = float(np.abs(mesh - neutral).max())
         if moved > _MOVED:
             told.append(f"{name} by {moved:.2f} mm")
@@ -94,7 +101,7 @@ def freed(rig: Rig, findings: Findings) -> Rig:
             findings.missing.append(f"{name}: lips or teeth still touch at rest; close its lips before importing it.")
         neutrals[name] = mesh.astype(np.float32)
     if told:
-        findings.found.append(f"Lips or teeth that touched at rest were moved apart: {', '.join(told)}.")
+        findings.found.append(f"Lips that touched or showed teeth at rest were moved: {', '.join(told)}.")
     return replace(rig, neutrals=neutrals)
 
 

@@ -31,6 +31,7 @@ def test_genes_shapes_and_vertices_come_back(imported):
         assert np.abs(offsets - theirs[name]).max() < 1e-4, name
     assert np.abs(rig.neutral("neutral") - bundled.neutral(WHO)).max() < 0.05
     assert np.array_equal(rig.mirror, bundled.mirror)
+    assert np.array_equal(rig.regions["brows"], np.sort(bundled.regions["brows"]))
     assert {name: last - first for name, (first, last) in rig.parts.items()} == {
         name: last - first for name, (first, last) in bundled.parts.items()
     }
