@@ -1,10 +1,12 @@
 """The bundled head comes back as it was; other heads lose what their files lack, and say so."""
 
+import io
 import os
 from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from emogen_core.correctives.collision import has_regions
 from emogen_core.correctives.pipeline import shape_weights
@@ -77,6 +79,28 @@ def test_it_is_stored_and_drawn(imported, tmp_path):
         renderer.close()
     # The same head in the same skin: only what moved by the overlay's tenths of a millimetre differs.
     assert np.abs(pictures[0] - pictures[1]).mean() < 1.5
+
+
+@pytest.mark.gl
+def test_sheets_and_portraits_take_the_file(imported, tmp_path):
+    from emogen_core.rigs.close_up import close_up
+    from emogen_core.rigs.sheets import make_sheets
+
+    save_rig(imported.rig, tmp_path / "head.rig")
+    save_look(tmp_path / "head.look", imported.look)
+    mine = picture(close_up(emotion="happy", size=160, rig=tmp_path / "head.rig"))
+    theirs = picture(close_up(WHO, emotion="happy", size=160))
+    # The bundled rig's correctives of pairs are not in it.
+    assert np.abs(mine - theirs).mean() < 2.5
+    [sheet] = make_sheets(tmp_path / "sheets", only=["identities"], rig=tmp_path / "head.rig")
+    assert picture(sheet.read_bytes()).std() > 20
+    with pytest.raises(InvalidInputError, match=r"sheets: expected of this rig .*'genes'.*got \['appearance'\]"):
+        make_sheets(tmp_path / "none", only=["appearance"], rig=tmp_path / "head.rig")
+
+
+def picture(data):
+    with Image.open(io.BytesIO(data)) as image:
+        return np.asarray(image.convert("RGB")).astype(int)
 
 
 def test_its_skin_lies_where_it_lay(imported):
