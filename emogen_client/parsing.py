@@ -7,6 +7,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 import pyarrow as pa
+import pyarrow.compute as pc
 from pyarrow import csv, parquet
 
 from .errors import UnreadableError
@@ -27,6 +28,8 @@ TYPES = {
 }
 WRONG = (pa.ArrowException, ValueError, TypeError, KeyError, AttributeError, OverflowError)
 """What is raised by bytes that are no table of this kind."""
+GUARDED = "^'('*[-=+@\\t\\r\\n\uff1d\uff0b\uff0d\uff20])"
+"""How a text begins in CSV that got a `'` in front, lest a spreadsheet take it for a formula."""
 
 
 def parsed(path: str, data: bytes, columns: Columns) -> pa.Table:
@@ -54,7 +57,13 @@ def _csv(data: bytes, columns: Columns) -> pa.Table:
     options = csv.ConvertOptions(
         column_types=_types(columns), strings_can_be_null=True, null_values=[""], quoted_strings_can_be_null=False
     )
-    return csv.read_csv(_native(data), convert_options=options)
+    table = csv.read_csv(_native(data), convert_options=options)
+    return pa.table([_as_it_was(column) for column in table.columns], schema=table.schema)
+
+
+def _as_it_was(column: pa.ChunkedArray) -> pa.ChunkedArray:
+    """Return text as it was before it was guarded."""
+    return pc.replace_substring_regex(column, GUARDED, r"\1") if pa.types.is_string(column.type) else column
 
 
 def _lines(data: bytes, columns: Columns) -> pa.Table:

@@ -14,7 +14,7 @@ import pyarrow.compute as pc
 from pyarrow import csv as arrow_csv
 from pyarrow import parquet
 
-from ...spreadsheet import FORMULA_STARTS
+from ...spreadsheet import FORMULA
 from .sink import Sink
 
 if TYPE_CHECKING:
@@ -74,7 +74,7 @@ def _cell(column: pa.Array) -> pa.Array:
 
 def _guarded(column: pa.Array) -> pa.Array:
     """Return text that a spreadsheet does not take for formulas, as spreadsheet.guarded does one by one."""
-    risky = pc.is_in(pc.utf8_slice_codeunits(column, 0, 1), pa.array(FORMULA_STARTS))
+    risky = pc.match_substring_regex(column, FORMULA)
     return pc.if_else(risky, pc.binary_join_element_wise("'", column, ""), column) if risky.true_count else column
 
 

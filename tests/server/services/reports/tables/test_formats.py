@@ -9,6 +9,7 @@ import numpy as np
 import pyarrow as pa
 import pytest
 
+from emogen_client.parsing import parsed
 from server.services.reports.tables.formats import writer
 from server.services.spreadsheet import guarded
 
@@ -52,12 +53,27 @@ def test_json_lines_need_no_company(names):
     assert [json.loads(line) for line in body.splitlines()] == batch.to_pylist()
 
 
+RISKY = ["=1+1", "+1", "-1", "@x", "\t=1", "\r=1", "\n1", "\uff1d1", "\uff0b1", "\uff0d1", "\uff201", "'=1", "''+1"]
+TOLD = [{"name": "cell", "type": "text"}, {"name": "row", "type": "integer"}]
+HARMLESS = ["a=1", " =1", "'tis", "'", "", None, "\u202e=1"]
+
+
+def as_csv(texts):
+    batch = pa.record_batch([pa.array(texts), pa.array(range(len(texts)))], names=["cell", "row"])
+    told = writer("csv", batch.schema)
+    return told.begin() + told.rows(batch)
+
+
 def test_what_is_guarded_in_a_table_is_what_the_guard_guards():
-    risky = ["=1+1", "+1", "-1", "@x", "\t=1", "\r=1", "\n1", "a=1", "", None, "'=1"]
-    told = writer("csv", pa.schema([("cell", pa.string())]))
-    body = told.rows(pa.record_batch([pa.array(risky)], names=["cell"])).decode()
-    cells = [row[0] if row else "" for row in csv.reader(io.StringIO(body, newline=""))]
-    assert cells == [guarded(one) if one else "" for one in risky]
+    read = csv.reader(io.StringIO(as_csv(RISKY + HARMLESS).decode(), newline=""))
+    cells = [row[0] for row in read][1:]
+    assert cells == [guarded(one) if one else "" for one in RISKY + HARMLESS]
+    assert cells == [f"'{one}" for one in RISKY] + [one or "" for one in HARMLESS]
+
+
+def test_whoever_reads_a_guarded_table_finds_the_text_as_it_was():
+    table = parsed("cells.csv", as_csv(RISKY + HARMLESS), TOLD)
+    assert table["cell"].to_pylist() == RISKY + HARMLESS
 
 
 def test_numbers_read_back_bit_for_bit():
