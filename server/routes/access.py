@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from fastapi import Depends
 from starlette.requests import Request  # FastAPI reads it at run time
-
-if TYPE_CHECKING:
-    pass
 
 from ..services.house import House
 

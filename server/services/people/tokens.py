@@ -101,7 +101,9 @@ class Tokens:
         if author is not None:
             _check_author(author, scope)
         if scope not in found.scopes:
-            raise ForbiddenError("This token is not for that.", field="scope", expected=scope, got=found.scopes)
+            raise ForbiddenError(
+                "This token is not for that.", field="scope", expected=scope, got=", ".join(found.scopes)
+            )
         return found.study_id
 
     def revoke(self, token_id: str, user: str | None = None, *, own: bool = False) -> None:

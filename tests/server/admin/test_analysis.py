@@ -31,7 +31,7 @@ def base(study):
 
 def test_a_report_is_asked_for_read_and_downloaded(owner, study, results, base, analyses):  # noqa: F811
     Walker(owner, study.links[0]).finish()
-    assert "Nobody has asked for a report" in owner.get(results).text
+    assert "There is no report of this study." in owner.get(results).text
     assert owner.get(base).status_code == 404
     analyses.make.gate.clear()
     assert post(owner, base, results, who="people").headers["location"] == f"{results}#analysis"
@@ -64,6 +64,22 @@ def test_a_report_can_do_nothing_but_be_read(owner, study, results, base, analys
     assert "sandbox" in policy
     assert "script-src" not in policy
     assert page.headers["cache-control"] == "no-store"
+
+
+def test_whoever_is_erased_takes_the_report_along(owner, house, study, base, analyses):  # noqa: F811
+    """The page says so, and that one of them is still at work."""
+    results = f"/admin/studies/{study.id}/results"
+    Walker(owner, study.links[0]).finish()
+    analyses.make.gate.clear()
+    post(owner, base, results, who="people")
+    house.withdrawals.erase(study.id, 0, None)
+    assert "goes when somebody in the study is erased" in owner.get(f"{base}/state").text
+    refused = post(owner, base, results, who="people")
+    assert refused.status_code == 409
+    assert "one to be dropped, since somebody was erased meanwhile" in refused.text
+    analyses.make.gate.set()
+    analyses.settle()
+    assert post(owner, base, results, who="people").status_code == 303
 
 
 def test_what_failed_is_told(owner, study, results, base, analyses):  # noqa: F811

@@ -92,7 +92,10 @@ class Analyses:
         if who not in KINDS:
             raise InvalidError("There is no such filter.", field="who", expected=f"one of {', '.join(KINDS)}", got=who)
         if not self._busy.acquire(blocking=False):
-            raise ConflictError("A report is being made already. Wait until it is there, then ask again.")
+            raise ConflictError(
+                "A report is being made already: of this or another study, or one to be dropped, since somebody was "
+                "erased meanwhile. Ask again in a minute."
+            )
         try:
             analysis = self._asked(study_id, who, user)
             watched(self._behind.submit(self._work, analysis, study_id, who), "a report could not be made")
