@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from typing import IO
 
 CHUNK = 2**20
+BROKE_OFF = (httpx2.RemoteProtocolError, httpx2.ReadError, httpx2.ReadTimeout)
+"""What is raised where the other side closes too early, where the connection is reset, and where nothing comes."""
 
 
 class Study:
@@ -118,7 +120,7 @@ class Study:
                     told.update(chunk)
                     size += file.write(chunk)
                 receipt = reply.headers["emogen-receipt"]
-        except httpx2.RemoteProtocolError as error:
+        except BROKE_OFF as error:
             raise IncompleteError(path, "a whole download", f"{size} bytes") from error
         self._compare(path, receipt, size, told.hexdigest())
         file.seek(0)

@@ -7,6 +7,7 @@ import pytest
 from pyarrow import parquet
 
 from emogen_client import EmogenClientError, Export, FramesMissingError, IncompleteError, RefusedError, Study
+from emogen_client.study import BROKE_OFF
 from server.services.reports.tables.columns import TABLES
 from tests.emogen_client.conftest import ADDRESS
 from tests.server.exported import lines
@@ -119,6 +120,22 @@ def test_a_download_that_the_server_broke_off_is_noticed(made, client, token):
         pytest.raises(IncompleteError, match="sent to its end"),
     ):
         Study(ADDRESS, made[0], token, client=sending).table("faces")
+
+
+@pytest.mark.parametrize("broken", BROKE_OFF)
+def test_a_connection_that_breaks_is_an_interrupted_download(tmp_path, broken):
+    class Breaking(httpx2.SyncByteStream):
+        def __iter__(self):
+            yield b"PAR1"
+            raise broken("the network is gone")
+
+    answer = httpx2.MockTransport(lambda _: httpx2.Response(200, stream=Breaking(), headers={"emogen-receipt": "x"}))
+    with httpx2.Client(transport=answer) as sending:
+        study = Study(ADDRESS, "any", "emg_x", client=sending)
+        for load in (lambda: study.table("faces"), lambda: study.download(tmp_path / "all.zip")):
+            with pytest.raises(IncompleteError, match="a whole download"):
+                load()
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_refusals_are_the_server_s_sentences(client, made, study):
