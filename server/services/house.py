@@ -153,7 +153,7 @@ def build_house(
     accounts = Accounts(database, settings.session_hours, settings.login_attempts)
     joining = Joining(journal, settings.joins_per_minute)
     exports, analyst = Exports(database), Analyst()
-    life, heads = StudyLife(journal, making), Heads(rig, wardrobe, portraits)
+    life, heads = StudyLife(journal, making), Heads(rig, wardrobe, portraits, models)
     return House(
         settings=settings,
         journal=journal,

@@ -13,8 +13,8 @@ from .house import House, build_house
 
 if TYPE_CHECKING:
     from ..settings import Settings
+    from .faces.face_model import FaceModel
     from .faces.model_drawers import DrawerOf
-    from .faces.models import FaceModel
 
 
 def _drawer_of(settings: Settings) -> DrawerOf:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from emogen_core.errors import RenderingError
 from emogen_core.rendering.keys import portrait_key
 
-from .models import own_name
+from .face_model import own_name
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from emogen_core.rendering.protocol import RenderSettings
     from emogen_core.rendering.worn import WornHead
 
-    from .models import FaceModel, FaceModels
+    from .face_model import FaceModel, Models
     from .portraits import PortraitDrawer
     from .sketch import Sketch
 
@@ -48,9 +48,7 @@ class _Running:
 class ModelDrawers:
     """Draws every face with the processes of its model."""
 
-    def __init__(
-        self, own: PortraitDrawer, models: FaceModels, backend: str, drawer_of: DrawerOf | None = None
-    ) -> None:
+    def __init__(self, own: PortraitDrawer, models: Models, backend: str, drawer_of: DrawerOf | None = None) -> None:
         """Draw the bundled model's faces with `own`; without `drawer_of`, no others."""
         self._own, self._models, self._backend, self._drawer_of = own, models, backend, drawer_of
         self._running: dict[str, _Running] = {}

@@ -1,8 +1,6 @@
 """Face models that were brought to this server, beside the bundled one: a lab's own head, the public ICT-FaceKit.
 
-A head of such a model is called MODEL:HEAD everywhere: in a study's identities, in the data, on pages. So a study's
-face model is the one that its heads are of, and whoever has the name of a head knows what to draw it with. The files
-stand in the database; each process puts them into its data folder once, where drawing processes read them.
+Their files stand in the database; each process puts them into its data folder once, where drawing processes read them.
 """
 
 from __future__ import annotations
@@ -10,10 +8,10 @@ from __future__ import annotations
 import json
 import re
 import threading
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from emogen_core.errors import EmogenError
 from emogen_core.face.rig_file import load_rig
@@ -22,8 +20,9 @@ from emogen_core.rendering.look import load_look
 from ...store import models, runs, studies
 from ...store.models_tables import FaceModelRecord
 from ..clock import now
-from ..errors import ConflictError, InvalidError, NotFoundError
+from ..errors import ConflictError, InvalidError
 from ..people.accounts import audit
+from .face_model import MARK, FaceModel, called, unknown_model
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -33,36 +32,15 @@ if TYPE_CHECKING:
 
     from ...store.engine import Database, Tx
 
-T = TypeVar("T")
-
-MARK = ":"
-"""Between the name of a face model and that of one of its heads."""
-MOST_BYTES = 64 * 2**20
+MOST_BYTES = 24 * 2**20
 """Of each of the two files."""
 _NAME = re.compile(r"[a-z0-9](-?[a-z0-9])*")
 _LONGEST = 40
 
 
-@dataclass(frozen=True, eq=False)
-class FaceModel:
-    """A face model that is not the bundled one.
-
-    Attributes:
-        name: what its heads are called by.
-        rig: wears its heads under their whole names, MODEL:HEAD.
-        look_hash: of its look.
-        files: of rig and look, for drawing processes; there the heads have their own names.
-    """
-
-    name: str
-    rig: Rig
-    look_hash: str
-    files: tuple[Path, Path]
-
-
 @dataclass(frozen=True)
 class FaceModels:
-    """Keeps face models."""
+    """Keeps the face models of a server."""
 
     database: Database
     folder: Path
@@ -73,6 +51,11 @@ class FaceModels:
         """Return what is known of every face model, by name."""
         with self.database.read() as tx:
             return models.all_models(tx)
+
+    @property
+    def hashes(self) -> tuple[str, ...]:
+        """The hashes of their rigs."""
+        return tuple(row.rig_hash for row in self.all())
 
     def add(self, name: str, rig: bytes, look: bytes, user: str | None = None) -> FaceModelRecord:
         """Keep a face model, once rig and look are known to be whole and to fit each other.
@@ -105,7 +88,7 @@ class FaceModels:
         """
         with self.database.write() as tx:
             if models.model(tx, name) is None:
-                raise _unknown(name)
+                raise NotFoundError("There is no such face model.", field="name", got=name)
             using = [study.title for study in studies.all_studies(tx) if _has(tx, study.id, name)]
             if using:
                 raise ConflictError(f"The study {using[0]} has heads of {name}. Delete the study first.", field="name")
@@ -132,36 +115,22 @@ class FaceModels:
         with self.database.read() as tx:
             row = models.model(tx, name)
         if row is None:
-            raise _unknown(name)
+            raise unknown_model(name)
         paths = tuple(self.folder / f"{row.rig_hash}.{ending}" for ending in ("rig", "look"))
         if not all(path.is_file() for path in paths):
             self._put(name, paths)
-        return FaceModel(name, _called(name, load_rig(paths[0])), row.look_hash, (paths[0], paths[1]))
+        return FaceModel(name, called(name, load_rig(paths[0])), row.look_hash, (paths[0], paths[1]))
 
     def _put(self, name: str, paths: Sequence[Path]) -> None:
         with self.database.read() as tx:
             contents = models.files(tx, name)
         if contents is None:
-            raise _unknown(name)
+            raise unknown_model(name)
         self.folder.mkdir(parents=True, exist_ok=True)
         for path, content in zip(paths, contents, strict=True):
             part = path.with_suffix(f"{path.suffix}.{threading.get_ident()}.part")
             part.write_bytes(content)
             part.replace(path)
-
-
-def own_name(identity: str) -> str:
-    """Return what a head is called in the files of its model."""
-    return identity.rpartition(MARK)[2]
-
-
-def _called(name: str, rig: Rig) -> Rig:
-    """Return a rig whose heads have their whole names."""
-
-    def whole(values: dict[str, T]) -> dict[str, T]:
-        return {f"{name}{MARK}{head}": value for head, value in values.items()}
-
-    return replace(rig, neutrals=whole(dict(rig.neutrals)), adjustments=whole(dict(rig.adjustments)))
 
 
 def _read(folder: Path, rig: bytes, look: bytes) -> tuple[Rig, Look]:
@@ -212,7 +181,3 @@ def _check_new(tx: Tx, name: str, rig_hash: str) -> None:
 def _has(tx: Tx, study_id: str, name: str) -> bool:
     """Whether a study has a head of a model, in any version and condition."""
     return any(f'"{name}{MARK}' in json.dumps(version.config) for version in studies.versions(tx, study_id))
-
-
-def _unknown(name: str) -> NotFoundError:
-    return NotFoundError(f"The face model {name} is not on this server.", field="identities", got=name)

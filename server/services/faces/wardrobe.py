@@ -21,6 +21,7 @@ from emogen_core.rendering.worn import WornHead, worn_rig
 
 from ..background import watched
 from ..errors import ConflictError, InvalidError, UnavailableError
+from .face_model import FileModels
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     from emogen_core.face.space import IdentitySpace
 
     from ..config import StudyConfig
-    from .models import FaceModels
+    from .face_model import Models
 
 Made = TypeVar("Made")
 LIMIT = 24
@@ -70,11 +71,11 @@ class Wardrobe:
     """The rig of the house, and what it wears besides its own heads. Safe to use from several threads."""
 
     def __init__(
-        self, rig: Rig, tailor: Tailor, patience: float = 20.0, limit: int = LIMIT, models: FaceModels | None = None
+        self, rig: Rig, tailor: Tailor, patience: float = 20.0, limit: int = LIMIT, models: Models | None = None
     ) -> None:
         """Keep `limit` heads; whoever waits for one waits `patience` seconds at most for its turn."""
         self._rig, self._tailor, self._patience, self._limit = rig, tailor, patience, limit
-        self._models = models
+        self._models: Models = models or FileModels()
         self._pegs: OrderedDict[str, _Peg] = OrderedDict()
         self._lock = threading.Lock()
         self._needle = threading.Lock()
@@ -164,18 +165,18 @@ class Wardrobe:
         peg = self._peg(identity)
         if peg is not None:
             return _there(peg.rig)
-        model = self._models.of(identity) if self._models else None
+        model = self._models.of(identity)
         return self._rig if model is None else model.rig
 
     def rig_hash(self, identity: str) -> str:
         """Return the hash of the rig that a head is of, fitted or not; raises `NotFoundError` as `rig`."""
-        model = self._models.of(identity) if self._models else None
+        model = self._models.of(identity)
         return (self._rig if model is None else model.rig).hash
 
     @property
     def rig_hashes(self) -> tuple[str, ...]:
         """The hashes of all rigs of this server, the bundled one first."""
-        return (self._rig.hash, *(model.rig_hash for model in (self._models.all() if self._models else ())))
+        return (self._rig.hash, *self._models.hashes)
 
     def rig_of(self, config: StudyConfig) -> Rig:
         """Return the rig of a study: that of its heads, the bundled one for documents.

@@ -9,7 +9,7 @@ from emogen_core.search.params import POPULATION
 
 from ..config import Categorise, Problem, Rate
 from ..errors import InvalidError
-from ..faces.models import MARK
+from ..faces.face_model import MARK
 from ..trials.evolution import params_of
 
 if TYPE_CHECKING:

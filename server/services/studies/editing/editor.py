@@ -153,7 +153,7 @@ class Editor:
         node, letter = heads[place], letter_of(place)
         value, saved = node.extra["value"], desk.saved.get(f"{node.name}.document")
         if isinstance(value, str):
-            return Face(node.name, letter, preset=value if value in self.heads.presets else "")
+            return Face(node.name, letter, preset=value if value in self.heads.named else "")
         same = saved == desk.fields.get(f"{node.name}.document") and not node.changed
         return Face(node.name, letter, row=int(node.key) if same else None)
 

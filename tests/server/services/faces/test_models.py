@@ -5,7 +5,8 @@ import pytest
 
 from emogen_core.rendering.protocol import RenderSettings
 from server.services.errors import ConflictError, InvalidError, NotFoundError
-from server.services.faces.models import MOST_BYTES, FaceModels, own_name
+from server.services.faces.face_model import own_name
+from server.services.faces.models import MOST_BYTES, FaceModels
 from server.services.faces.sketch import Sketch
 from server.services.house import build_house
 from tests.conftest import BOTH, PIXEL, FakeDrawer, FakeTailor, small_study
@@ -97,7 +98,7 @@ def test_it_goes_when_no_study_has_it(house, model):
     house.removal.delete(study.id, None, "owner", typed="Small study", erase=True)
     house.models.remove("lab")
     assert not house.models.all()
-    with pytest.raises(NotFoundError, match="lab is not on this server"):
+    with pytest.raises(NotFoundError, match="no such face model"):
         house.models.remove("lab")
     with pytest.raises(InvalidError) as error:
         house.studies.create(small_study(identities=HEADS))
@@ -106,8 +107,12 @@ def test_it_goes_when_no_study_has_it(house, model):
 
 @pytest.mark.parametrize(
     ("heads", "field"),
-    [(("lab:female", "female"), "identities.1"), (("female", "lab:female"), "identities.1"), (("lab:anna",), "identities.0")],
-)  # fmt: skip
+    [
+        (("lab:female", "female"), "identities.1"),
+        (("female", "lab:female"), "identities.1"),
+        (("lab:anna",), "identities.0"),
+    ],
+)
 def test_a_study_has_heads_of_one_model(house, model, heads, field):
     with pytest.raises(InvalidError) as error:
         house.studies.create(small_study(identities=heads))
