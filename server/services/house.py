@@ -182,7 +182,7 @@ def build_house(
         noise=noise,
         results=StudyResults(journal, noise),
         analyst=analyst,
-        analyses=Analyses(database, exports, analyst),
+        analyses=Analyses(database, exports, analyst, models),
         thumbnails=Thumbnails(portraits),
         withdrawals=Withdrawals(journal),
         monitor=Monitor(database),

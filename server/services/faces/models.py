@@ -20,7 +20,7 @@ from emogen_core.rendering.look import load_look
 from ...store import models, runs, studies
 from ...store.models_tables import FaceModelRecord
 from ..clock import now
-from ..errors import ConflictError, InvalidError
+from ..errors import ConflictError, InvalidError, NotFoundError
 from ..people.accounts import audit
 from .face_model import MARK, FaceModel, called, unknown_model
 
