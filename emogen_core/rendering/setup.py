@@ -44,7 +44,7 @@ def make_renderer(backend: str, rig: Path | None = None, look: Path | None = Non
     Args:
         backend: ``pyrender`` or, only when asked for by name, ``software``.
         rig: rig file; the bundled one by default.
-        look: look file; by default what `look_for` finds.
+        look: look file; by default the one beside the rig file, with its name and ``.look``, or what `look_for` finds.
 
     Raises:
         InvalidInputError: unknown backend, or rig and look do not fit.
@@ -58,6 +58,8 @@ def make_renderer(backend: str, rig: Path | None = None, look: Path | None = Non
 def load_dressed(rig: Path | None = None, look: Path | None = None) -> tuple[Rig, Look]:
     """Load a rig and what it wears; see `make_renderer`."""
     model = load_rig(rig) if rig else load_bundled_rig()
+    if rig and not look and rig.with_suffix(".look").is_file():
+        look = rig.with_suffix(".look")
     return model, load_look(look) if look else look_for(model)
 
 

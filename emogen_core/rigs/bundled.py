@@ -120,7 +120,7 @@ def _bare(
         neutrals={DEFAULT: neutral.astype(np.float32)},
         triangles=geometry.triangles,
         parts=geometry.parts,
-        regions=mouth_regions(geometry, low, neutral) | {BROWS: brows},
+        regions=mouth_regions(geometry, low, neutral, geometry.surface[:, 2] <= 1) | {BROWS: brows},
         mirror=geometry.mirror.astype(np.int32),
     )
 

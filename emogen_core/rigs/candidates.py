@@ -26,7 +26,7 @@ from emogen_core.rigs.mending import Mender
 from emogen_core.rigs.saturation import saturation
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
     from numpy.typing import NDArray
 
@@ -111,11 +111,20 @@ class Deriver:
 
     Attributes:
         geometry: the render mesh.
-        shut: (N, 3) offsets that shut the lips at `jawOpen` 1 (the unit `mouthClose`).
+        shut: (N, 3) offsets that shut the lips at `jawOpen` 1 (the unit `mouthClose`); none for a head without them.
     """
 
     geometry: Topology
-    shut: Mesh
+    shut: Mesh | None
+
+    def rules(self, genes: Iterable[str]) -> list[Pair]:
+        """Return those of `RULES` that some genes have the parents of, and that can be derived."""
+        known = set(genes)
+        return [
+            Pair(parents, method)
+            for parents, method in RULES.items()
+            if set(parents) <= known and (method != "close" or self.shut is not None)
+        ]
 
     @cached_property
     def mender(self) -> Mender:
@@ -125,7 +134,7 @@ class Deriver:
     def derive(self, pair: Pair, head: Head, genes: Meshes) -> Mesh:
         """Return the (N, 3) corrective of a pair on a head with its genes' (N, 3) offsets."""
         if pair.method == "close":
-            return self.shut
+            return np.zeros_like(head.neutral) if self.shut is None else self.shut
         if pair.method == "undo":
             return -self.derive(Pair(pair.parents[1:], RULES[pair.parents[1:]]), head, genes)
         first, second = (genes[name] for name in pair.parents)
@@ -135,7 +144,7 @@ class Deriver:
         joined = both + self._joined(first, second, pair.method, head)
         if pair.relaxed:
             joined = self.mender.mended(head.neutral, joined, overlap(first, second))
-        if moves_lids(pair.parents):
+        if moves_lids(pair.parents) and head.eye_radius:
             joined = cleared(self.geometry, head, joined)
         return self._on_flesh(joined - both)
 

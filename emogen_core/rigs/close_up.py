@@ -14,16 +14,23 @@ from emogen_core.rendering.setup import make_renderer
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from pathlib import Path
 
     from numpy.typing import NDArray
 
     from emogen_core.face.rig import Rig
 
 
-def close_up(
-    identity: str = "", genes: Sequence[str] = (), emotion: str = "", size: int = 1000, backend: str = "pyrender"
+def close_up(  # noqa: PLR0913 - the last two by keyword
+    identity: str = "",
+    genes: Sequence[str] = (),
+    emotion: str = "",
+    size: int = 1000,
+    *,
+    backend: str = "pyrender",
+    rig: Path | None = None,
 ) -> bytes:
-    """Draw one face of the bundled rig, corrected as in a study.
+    """Draw one face, corrected as in a study.
 
     Args:
         identity: who; the rig's first by default.
@@ -31,6 +38,7 @@ def close_up(
         emotion: an emotion set of the rig, at full strength before ``genes`` are set.
         size: width and height, pixels.
         backend: which renderer draws.
+        rig: a rig file, with its look beside it; the bundled one by default.
 
     Returns:
         A PNG file.
@@ -38,10 +46,11 @@ def close_up(
     Raises:
         InvalidInputError: an unknown identity, gene or emotion, or a value outside [0, 1].
         MissingGLError: ``pyrender`` on a machine without OpenGL.
+        RigFileError: a file is missing or damaged.
     """
-    renderer, rig = make_renderer(backend)
-    who = identity or rig.identities[0]
-    weights = face_weights(rig, who, genome(rig, genes, emotion)[np.newaxis]).weights
+    renderer, model = make_renderer(backend, rig)
+    who = identity or model.identities[0]
+    weights = face_weights(model, who, genome(model, genes, emotion)[np.newaxis]).weights
     picture = renderer.draw(who, weights, RenderSettings(size, size))[0]
     renderer.close()
     return encode_png(picture)

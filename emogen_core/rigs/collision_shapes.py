@@ -16,7 +16,7 @@ from emogen_core.rigs.lips import lip_gaps, near_line
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from emogen_core.rigs.head_mesh import HeadGeometry
+    from emogen_core.rigs.topology import Topology
 
 ZONES = ("OuterLeft", "InnerLeft", "InnerRight", "OuterRight")
 COLLISION_SHAPES = tuple(f"{kind}{zone}" for kind in ("lips", "teeth") for zone in ZONES)
@@ -33,7 +33,7 @@ _LIP_DEPTH = 9.0
 
 
 def collision_offsets(
-    geometry: HeadGeometry, low: NDArray[np.float64], neutral: NDArray[np.float64]
+    geometry: Topology, low: NDArray[np.float64], neutral: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Return the (8, N, 3) offsets of `COLLISION_SHAPES` on a sealed neutral, millimetres."""
     fade = 1 - smoothstep(_away(geometry, low, neutral), *_FADE)
@@ -45,19 +45,26 @@ def collision_offsets(
 
 
 def mouth_regions(
-    geometry: HeadGeometry, low: NDArray[np.float64], neutral: NDArray[np.float64]
+    geometry: Topology, low: NDArray[np.float64], neutral: NDArray[np.float64], outside: NDArray[np.bool_]
 ) -> dict[str, NDArray[np.int32]]:
-    """Return the vertices of the lips (outside and in) and of the front teeth, for detecting collisions."""
+    """Return the vertices of the lips (outside and in) and of the front teeth, for detecting collisions.
+
+    Args:
+        geometry: the mesh.
+        low: (N,) 0 on the upper, 1 on the lower lip.
+        neutral: (N, 3) with closed lips, millimetres.
+        outside: (N,) which vertices of teeth are not on their inner side.
+    """
     near = _away(geometry, low, neutral) < _LIP_DEPTH
     regions = {"lip_upper": near & (low < 0.5), "lip_lower": near & (low >= 0.5)}
     for jaw in ("teeth_upper", "teeth_lower"):
         front = np.zeros(len(neutral), bool)
         front[geometry.part_vertices(jaw)] = True
-        regions[jaw] = front & (np.abs(neutral[:, 0]) < 24) & (geometry.surface[:, 2] <= 1)
+        regions[jaw] = front & (np.abs(neutral[:, 0]) < 24) & outside
     return {name: np.flatnonzero(mask).astype(np.int32) for name, mask in regions.items()}
 
 
-def _away(geometry: HeadGeometry, low: NDArray[np.float64], neutral: NDArray[np.float64]) -> NDArray[np.float64]:
+def _away(geometry: Topology, low: NDArray[np.float64], neutral: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return (N,) distance from the line where the lips meet; infinite off the skin and the mouth."""
     flesh = geometry.part_vertices("skin", "mouth")
     away = np.full(len(neutral), np.inf)

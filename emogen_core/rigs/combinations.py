@@ -1,4 +1,4 @@
-"""Which combinational correctives the bundled rig has: chosen by what random faces gain, no artist is here.
+"""Which combinational correctives a rig has: chosen by what random faces gain, no artist is here.
 
 Every pair of genes that damage the same skin together is derived in several ways (`candidates.py`). Each is tried on
 random faces that have both genes in the company of others (`company.py`): what counts is how many flips, folds and
@@ -66,9 +66,9 @@ def choose_pairs(
     choice = Choice(deriver, head, {name: offsets for name, offsets in genes.items() if name not in skipped})
     glanced = sorted(map(choice.glanced, choice.damaging_pairs()), key=lambda ways: _order(max(ways, key=_gain)))
     found = sorted(map(choice.best, glanced[:SHORTLIST]), key=_order)
-    rules = [Pair(parents, method) for parents, method in RULES.items()]
+    rules = deriver.rules(choice.genes)
     gaining = (pair for pair in found if pair.gain > 0 and not choice.harms(pair, witnesses))
-    return rules + list(islice(gaining, KEPT - len(RULES)))
+    return rules + list(islice(gaining, KEPT - len(rules)))
 
 
 @dataclass(frozen=True)
@@ -148,8 +148,9 @@ class Choice:
 
     @cached_property
     def _company(self) -> Company:
-        rules = [Pair(parents, method) for parents, method in RULES.items() if set(parents) <= set(self.genes)]
-        ruled = {pair.parents: self.deriver.derive(pair, self.head, self.genes) for pair in rules}
+        ruled = {
+            pair.parents: self.deriver.derive(pair, self.head, self.genes) for pair in self.deriver.rules(self.genes)
+        }
         return Company(self.head.neutral, self.genes, ruled)
 
 

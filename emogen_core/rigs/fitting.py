@@ -8,7 +8,7 @@ scaled to it (`lids.py`), and vertices that would enter the eyeball on the way t
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -58,10 +58,11 @@ _MEMBERS = {recipe.name: recipe.members for recipe in RECIPES}
 
 @dataclass(frozen=True, slots=True)
 class Head:
-    """A neutral (N, 3) of the render mesh, with its left eyeball's centre."""
+    """A neutral (N, 3) of the render mesh, with its left eyeball's centre and radius; 0 for a head without eyes."""
 
     neutral: Mesh
     eye_centre: NDArray[np.float64]
+    eye_radius: float = RADIUS
 
 
 def gene_offsets(core: Meshes, genes: tuple[str, ...] = tuple(_MEMBERS)) -> Meshes:
@@ -123,15 +124,15 @@ def cleared(geometry: Topology, head: Head, offsets: Mesh) -> Mesh:
     result = offsets.copy()
     for side in (1, -1):
         centre = head.eye_centre * (side, 1, 1)
-        covers, margin = _covers(geometry, head.neutral, centre)
-        around = _around(geometry, head.neutral, centre)
+        covers, margin = _covers(geometry, head, centre)
+        around = _around(geometry, head, centre)
         carried = _carried(head.neutral[around], head.neutral[covers])
         rest = head.neutral[covers] - centre
         at_rest = np.linalg.norm(rest, axis=1)
         for _ in range(_CHORD_ROUNDS):
             end = rest + result[covers]
             nearest = _nearest_on_path(rest, end)
-            missing = _missing(nearest, end, np.minimum(clear_radius(nearest, margin), at_rest))
+            missing = _missing(nearest, end, np.minimum(clear_radius(nearest, margin, head.eye_radius), at_rest))
             result[around] += _outwards(head.neutral[around] + result[around] - centre, _largest(carried, missing))
     return result
 
@@ -141,9 +142,9 @@ def cleared_neutral(geometry: Topology, head: Head) -> Mesh:
     mesh = head.neutral.copy()
     for side in (1, -1):
         centre = head.eye_centre * (side, 1, 1)
-        covers, margin = _covers(geometry, mesh, centre)
+        covers, margin = _covers(geometry, replace(head, neutral=mesh), centre)
         place = mesh[covers] - centre
-        mesh[covers] += _outwards(place, _missing(place, place, clear_radius(place, margin)))
+        mesh[covers] += _outwards(place, _missing(place, place, clear_radius(place, margin, head.eye_radius)))
     return mesh
 
 
@@ -159,10 +160,10 @@ def _outwards(points: Mesh, amount: NDArray[np.float64]) -> Mesh:
     return away
 
 
-def _around(geometry: Topology, neutral: Mesh, centre: NDArray[np.float64]) -> NDArray[np.intp]:
+def _around(geometry: Topology, head: Head, centre: NDArray[np.float64]) -> NDArray[np.intp]:
     """Return all soft vertices near an eyeball."""
     soft = geometry.part_vertices("skin", "sockets", "lashes")
-    near: NDArray[np.intp] = soft[np.linalg.norm(neutral[soft] - centre, axis=1) < _NEAR * RADIUS]
+    near: NDArray[np.intp] = soft[np.linalg.norm(head.neutral[soft] - centre, axis=1) < _NEAR * head.eye_radius]
     return near
 
 
@@ -181,13 +182,13 @@ def _largest(share: csr_array, amount: NDArray[np.float64]) -> NDArray[np.float6
     return brought
 
 
-def clear_radius(points: Mesh, margin: NDArray[np.float64] | float) -> NDArray[np.float64]:
+def clear_radius(points: Mesh, margin: NDArray[np.float64] | float, eye_radius: float = RADIUS) -> NDArray[np.float64]:
     """Return how far from the centre skin must be in the direction of (n, 3) points, wherever the cornea looks."""
     distance = np.linalg.norm(points, axis=1)
     angle = np.degrees(np.arccos(np.clip(points[:, 2] / np.maximum(distance, 1e-9), -1, 1)))
     off_cornea = np.maximum(angle - max(GAZE_DEGREES.values()), 0)
     bulge = np.clip(1 - (off_cornea / CORNEA_DEGREES) ** 2, 0, None) ** 2
-    radius: NDArray[np.float64] = RADIUS * (1 + margin + CORNEA_BULGE * bulge)
+    radius: NDArray[np.float64] = eye_radius * (1 + margin + CORNEA_BULGE * bulge)
     return radius
 
 
@@ -212,13 +213,13 @@ def kept_shut(
 
 
 def _covers(
-    geometry: Topology, neutral: Mesh, centre: NDArray[np.float64]
+    geometry: Topology, head: Head, centre: NDArray[np.float64]
 ) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
     """Return the vertices near an eyeball that must stay outside, and by which share of the radius."""
     skin, lashes = geometry.part_vertices("skin"), geometry.part_vertices("lashes")
     rings = lid_rings(geometry)
     covers = np.concatenate([skin[rings[skin] >= EDGE], lashes])
-    near = covers[np.linalg.norm(neutral[covers] - centre, axis=1) < _NEAR * RADIUS]
+    near = covers[np.linalg.norm(head.neutral[covers] - centre, axis=1) < _NEAR * head.eye_radius]
     return near, np.where(rings[near] == EDGE, EDGE_MARGIN, EYEBALL_MARGIN)
 
 

