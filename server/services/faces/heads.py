@@ -79,6 +79,10 @@ class Heads:
         """Neutral, and the emotions that the rig has prototypes of."""
         return (NEUTRAL, *self.rig.emotion_sets)
 
+    def emotions_of(self, name: str) -> tuple[str, ...]:
+        """Return neutral, and the emotions that the rig of a named head has prototypes of; of others, the bundled."""
+        return (NEUTRAL, *(self.wardrobe.rig(name) if MARK in name else self.rig).emotion_sets)
+
     def start(self, name: str) -> Identity:
         """Return a preset to go on from.
 
