@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..services.faces.drawing import PoolDrawer
+    from ..services.faces.portraits import PortraitDrawer
     from ..services.faces.wardrobe import Wardrobe
 
     Floats = NDArray[np.float64]
@@ -60,7 +60,7 @@ class Gallery:
 class Studio:
     """Draws faces of every head of a study."""
 
-    drawer: PoolDrawer
+    drawer: PortraitDrawer
     wardrobe: Wardrobe
     _artists: dict[str, HeatArtist] = field(default_factory=dict)
 

@@ -4,7 +4,21 @@ from __future__ import annotations
 
 import typer
 
-from . import analyse, bench, doctor, evaluate, export, identity, landmarks, replay, rig, serve, simulate, study
+from . import (
+    analyse,
+    bench,
+    doctor,
+    evaluate,
+    export,
+    identity,
+    landmarks,
+    model,
+    replay,
+    rig,
+    serve,
+    simulate,
+    study,
+)
 
 app = typer.Typer(
     help="Measure the facial expression a person has in mind.", no_args_is_help=True, pretty_exceptions_enable=False
@@ -19,5 +33,6 @@ app.add_typer(evaluate.app, name="evaluate")
 app.add_typer(rig.app, name="rig")
 app.add_typer(identity.app, name="identity")
 app.add_typer(landmarks.app, name="landmarks")
+app.add_typer(model.app, name="model")
 app.add_typer(study.app, name="study")
 app.add_typer(bench.app, name="bench")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from contextlib import closing, contextmanager
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -12,8 +12,6 @@ from threadpoolctl import threadpool_limits
 
 from emogen_client import EmogenClientError
 from emogen_core.errors import RenderingError
-from emogen_core.face.bundled import load_bundled_rig
-from emogen_core.rendering.pool import RenderPool
 from emogen_core.simulation.evaluation.threshold import SEARCHES
 
 from ..analysis.context import Context
@@ -29,12 +27,10 @@ from ..analysis.simulated import simulate
 from ..analysis.telling import counted
 from ..release import release
 from ..services.faces.correction import Correction
-from ..services.faces.drawing import PoolDrawer
-from ..services.faces.tailor import HouseTailor
-from ..services.faces.wardrobe import Wardrobe
 from ..services.reports.tables.sound_export import SoundExport
 from .common import made_folder, plainly, progress, stop, unwritable
 from .threshold import Seed
+from .wearing import RigFile, Wearing, worn
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -58,19 +54,17 @@ Json = Annotated[bool, typer.Option("--json", help="Print the numbers as JSON.")
 
 def analyse(  # noqa: PLR0913, PLR0917 - typer reads the options from the signature
     export: From, out: Out = Path("analysis"), pilot: Pilot = False, simulated: Simulated = False,
-    flagged: Flagged = False, seed: Seed = 1, json_: Json = False,
+    flagged: Flagged = False, rig: RigFile = None, seed: Seed = 1, json_: Json = False,
 ) -> None:  # fmt: skip
     """Analyse the finished faces of an export: report.html, a CSV file a table, and methods.txt."""
     kinds = (PEOPLE, *((PILOT,) if pilot else ()), *((SIMULATED,) if simulated else ()))
-    rig = load_bundled_rig()
-    wardrobe = Wardrobe(rig, HouseTailor(rig))
     # The products are small: threads of the algebra library only get in each other's way.
-    with plainly(), closing(wardrobe), threadpool_limits(1):
-        kept, recording = _read(export, rig, kinds, flagged=flagged)
+    with plainly(), threadpool_limits(1), _opened(export, rig) as (kept, wearing):
+        recording = read(kept, wearing.rig, kinds, flagged=flagged)
         folder = made_folder(out)
-        facts = _facts(kept, recording, rig, kinds, _command(export, seed, kinds, flagged=flagged))
-        with _studio(wardrobe, recording) as studio:
-            context = _context(recording, rig, wardrobe, facts.seed, studio)
+        facts = _facts(kept, recording, wearing.rig, kinds, _command(export, wearing, seed, kinds, flagged=flagged))
+        with _studio(wearing, recording) as studio:
+            context = _context(recording, wearing, facts.seed, studio)
             made = _sections(context)
         try:
             write(made, methods(context, made, facts), facts, folder, faces=studio is not None)
@@ -79,17 +73,20 @@ def analyse(  # noqa: PLR0913, PLR0917 - typer reads the options from the signat
     typer.echo(json.dumps(plain(made, facts), indent=2, allow_nan=False) if json_ else str(folder / PAGE))
 
 
-def _read(path: Path, rig: Rig, kinds: tuple[str, ...], *, flagged: bool) -> tuple[Export, Recording]:
+@contextmanager
+def _opened(path: Path, rig: Path | None) -> Iterator[tuple[Export, Wearing]]:
     try:
         kept = SoundExport(path)
-        return kept, read(kept, rig, kinds, flagged=flagged)
+        with worn(kept, rig) as wearing:
+            yield kept, wearing
     except EmogenClientError as error:
         raise stop(str(error)) from error
 
 
-def _command(path: Path, seed: int, kinds: tuple[str, ...], *, flagged: bool) -> tuple[str, int]:
+def _command(path: Path, wearing: Wearing, seed: int, kinds: tuple[str, ...], *, flagged: bool) -> tuple[str, int]:
     """Return what makes the same report again, wherever the export lies and the report goes, and its seed."""
     options = [*(f"--{kind}" for kind in kinds if kind != PEOPLE), *(["--flagged"] if flagged else [])]
+    options += [f"--rig {name}.rig" for name in wearing.models.models]
     return " ".join(["emogen analyse", path.name, *options, f"--seed {seed}"]), seed
 
 
@@ -122,15 +119,15 @@ def _share(simulated: int, of: int) -> Literal["all", "some", "none"]:
 
 
 @contextmanager
-def _studio(wardrobe: Wardrobe, recording: Recording) -> Iterator[Studio | None]:
+def _studio(wearing: Wearing, recording: Recording) -> Iterator[Studio | None]:
     """Start what draws and fit the heads; without OpenGL there is a report all the same, without faces."""
     for config in recording.studies:
-        wardrobe.know(config)
+        wearing.wardrobe.know(config)
     heads = sorted(set(recording.faces.identities.tolist()))
     for head in heads:
-        wardrobe.wait(head)
-    with RenderPool() as pool:
-        studio = Studio(PoolDrawer(pool), wardrobe)
+        wearing.wardrobe.wait(head)
+    with wearing.drawer() as drawer:
+        studio = Studio(drawer, wearing.wardrobe)
         try:
             studio.portraits([("", "", heads[0], recording.faces.weights[0])])
         except RenderingError as error:
@@ -140,15 +137,15 @@ def _studio(wardrobe: Wardrobe, recording: Recording) -> Iterator[Studio | None]
         yield studio
 
 
-def _context(recording: Recording, rig: Rig, wardrobe: Wardrobe, seed: int, studio: Studio | None) -> Context:
-    correction = Correction(wardrobe.rig)
+def _context(recording: Recording, wearing: Wearing, seed: int, studio: Studio | None) -> Context:
+    correction = Correction(wearing.wardrobe.rig)
 
     def corrected(identity: str, genes: NDArray[np.float64]) -> NDArray[np.float32]:
         return correction.faces(identity, [genes])[0].weights
 
     with progress("Simulating") as done:
-        simulated = simulate(rig, recording, seed, done)
-    return Context(recording, rig, simulated, corrected, seed, studio)
+        simulated = simulate(wearing.rig, recording, seed, done)
+    return Context(recording, wearing.rig, simulated, corrected, seed, studio)
 
 
 def _sections(context: Context) -> list[Section]:

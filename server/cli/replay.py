@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from contextlib import closing
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -11,17 +10,13 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from emogen_client import EmogenClientError
-from emogen_core.face.bundled import load_bundled_rig
-from emogen_core.rendering.pool import RenderPool
 
-from ..services.faces.drawing import PoolDrawer
-from ..services.faces.tailor import HouseTailor
-from ..services.faces.wardrobe import Wardrobe
 from ..services.participation.replay.exported import ExportReplay
 from ..services.participation.replay.portraits import Album, Which
 from ..services.participation.replay.recorded import Replayed
 from ..services.reports.tables.sound_export import SoundExport
 from .common import made_folder, plainly, progress, stop, unwritable
+from .wearing import RigFile, Wearing, worn
 
 if TYPE_CHECKING:
     from ..services.participation.replay.recorded import Difference
@@ -32,19 +27,20 @@ Faces = Annotated[Which, typer.Option("--faces", help="Of which: finished, best 
 Json = Annotated[bool, typer.Option("--json", help="Print what was found as JSON.")]
 
 
-def replay(export: From, portraits: Portraits = None, faces: Faces = "finished", json_: Json = False) -> None:
+def replay(
+    export: From, portraits: Portraits = None, faces: Faces = "finished", rig: RigFile = None, json_: Json = False
+) -> None:
     """Make every face of an export again from configuration, seeds and choices; name the first difference."""
-    rig = load_bundled_rig()
-    wardrobe = Wardrobe(rig, HouseTailor(rig))
-    with plainly(), closing(wardrobe):
+    with plainly():
         try:
             kept = SoundExport(export)
             kept.verify()
-            again = ExportReplay(kept, rig, wardrobe)
-            with progress("Replaying") as done:
-                found = again.everybody(done)
-            if portraits is not None and found.difference is None:
-                _draw(again, made_folder(portraits), faces)
+            with worn(kept, rig) as wearing:
+                again = ExportReplay(kept, wearing.wardrobe)
+                with progress("Replaying") as done:
+                    found = again.everybody(done)
+                if portraits is not None and found.difference is None:
+                    _draw(again, wearing, made_folder(portraits), faces)
         except EmogenClientError as error:
             raise stop(str(error)) from error
     typer.echo(json.dumps(asdict(found), indent=2) if json_ else _sentence(found))
@@ -52,9 +48,9 @@ def replay(export: From, portraits: Portraits = None, faces: Faces = "finished",
         raise typer.Exit(1)
 
 
-def _draw(again: ExportReplay, folder: Path, which: Which) -> None:
-    with RenderPool() as pool:
-        album = Album(PoolDrawer(pool), again.wardrobe)
+def _draw(again: ExportReplay, wearing: Wearing, folder: Path, which: Which) -> None:
+    with wearing.drawer() as drawer:
+        album = Album(drawer, again.wardrobe)
         for name, picture in album.pictures(again.participations(), which):
             path = folder / name
             try:

@@ -55,7 +55,8 @@ def _here(study: str, participants: int, seed: int, observer: Observer) -> Repor
         summary = house.studies.summary(study)
         token = house.tokens.create("emogen simulate", ["simulate"], study=summary.id, days=1)
         client = _client("http://emogen.local", httpx2.ASGITransport(create_app(house)))
-        rig, config = house.journal.rig, house.life.config(summary.id)
+        config = house.life.config(summary.id)
+        rig = house.journal.rig_of(config)
         send = Simulation(client, summary.links[0], token, seed, rig, observer, params_of(rig, config))
         return asyncio.run(_run(client, send, participants))
 

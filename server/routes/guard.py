@@ -14,6 +14,7 @@ from starlette.datastructures import Headers, MutableHeaders
 from starlette.requests import Request
 
 from ..services.config.files import MOST_BYTES
+from ..services.faces.models import MOST_BYTES as MODEL_BYTES
 from .errors import answer, error_body
 
 if TYPE_CHECKING:
@@ -49,6 +50,9 @@ LARGE = re.compile(r"/admin/studies/(import|[^/]+/design)")
 """Where a study file may arrive, or the form of a whole study."""
 LARGE_BYTES = 2 * MOST_BYTES + 2**20
 """A file and a text of the size that is allowed, and what is around them; what is too long, the page says."""
+MODELS = re.compile(r"/admin/models")
+"""Where the two files of a face model may arrive."""
+MODELS_BYTES = 2 * MODEL_BYTES + 2**20
 TRANSPORT = "max-age=31536000; includeSubDomains"
 
 
@@ -58,7 +62,7 @@ class Guard:
     def __init__(self, app: ASGIApp, settings: Settings) -> None:
         self._app = app
         self._limit = settings.body_limit_bytes
-        self._large = max(self._limit, LARGE_BYTES)
+        self._larger = ((LARGE, max(self._limit, LARGE_BYTES)), (MODELS, max(self._limit, MODELS_BYTES)))
         self._patience = settings.body_timeout_seconds
         self._headers = {**HEADERS, "Strict-Transport-Security": TRANSPORT} if settings.secure else HEADERS
 
@@ -89,7 +93,7 @@ class Guard:
         length = Headers(scope=scope).get("content-length", "0")
         if not length.isdigit() or _has_nul(scope):
             return 400
-        limit = self._large if LARGE.fullmatch(scope["path"]) else self._limit
+        limit = next((most for paths, most in self._larger if paths.fullmatch(scope["path"])), self._limit)
         if int(length) > limit:
             return 413
         try:

@@ -10,6 +10,8 @@ from ..store.engine import Database
 from ..store.migrate import upgrade
 from .config.way_back import host_list
 from .faces.heads import Heads
+from .faces.model_drawers import ModelDrawers
+from .faces.models import FaceModels
 from .faces.portrait_files import PortraitFiles
 from .faces.portraits import Portraits
 from .faces.tailor import HouseTailor
@@ -50,6 +52,7 @@ if TYPE_CHECKING:
     from emogen_core.face.rig import Rig
 
     from ..settings import Settings
+    from .faces.model_drawers import DrawerOf
     from .faces.portraits import PortraitDrawer
     from .faces.wardrobe import Tailor
 
@@ -69,6 +72,7 @@ class House:
     removal: Removal
     recruiting: Recruiting
     heads: Heads
+    models: FaceModels
     editor: Editor
     making: Making
     accounts: Accounts
@@ -120,20 +124,36 @@ class House:
         self.database.close()
 
 
-def build_house(settings: Settings, rig: Rig, drawer: PortraitDrawer, tailor: Tailor | None = None) -> House:
-    """Migrate the database and return all services."""
+def build_house(
+    settings: Settings,
+    rig: Rig,
+    drawer: PortraitDrawer,
+    tailor: Tailor | None = None,
+    drawer_of: DrawerOf | None = None,
+) -> House:
+    """Migrate the database and return all services.
+
+    Args:
+        settings: of the server.
+        rig: the bundled one.
+        drawer: draws its faces.
+        tailor: fits heads to it; with the methods that made the presets by default.
+        drawer_of: makes what draws another face model; without it such faces are not drawn.
+    """
     database = open_database(settings)
     files = PortraitFiles(settings.data_dir / "portraits")
-    wardrobe = Wardrobe(rig, tailor or HouseTailor(rig), settings.portrait_wait_seconds)
-    portraits = Portraits(drawer, files, database, wardrobe, settings.portrait_memory_mb * 2**20)
+    models = FaceModels(database, settings.data_dir / "face-models")
+    wardrobe = Wardrobe(rig, tailor or HouseTailor(rig), settings.portrait_wait_seconds, models=models)
+    drawers = ModelDrawers(drawer, models, settings.renderer, drawer_of)
+    portraits = Portraits(drawers, files, database, wardrobe, settings.portrait_memory_mb * 2**20)
     journal = Journal(database, rig, portraits, wardrobe, host_list(settings.redirect_hosts))
     previews = Previews(journal)
-    noise = NoiseOfSearch(rig, settings.data_dir / "noise")
+    noise = NoiseOfSearch(wardrobe.rig_of, settings.data_dir / "noise")
     making, tokens = Studies(journal), Tokens(database)
     accounts = Accounts(database, settings.session_hours, settings.login_attempts)
     joining = Joining(journal, settings.joins_per_minute)
     exports, analyst = Exports(database), Analyst()
-    life, heads = StudyLife(journal, making), Heads(rig, wardrobe, portraits)
+    life, heads = StudyLife(journal, making), Heads(rig, wardrobe, portraits, models)
     return House(
         settings=settings,
         journal=journal,
@@ -146,6 +166,7 @@ def build_house(settings: Settings, rig: Rig, drawer: PortraitDrawer, tailor: Ta
         removal=Removal(journal),
         recruiting=Recruiting(database, settings.address),
         heads=heads,
+        models=models,
         editor=Editor(life, heads),
         making=Making(making, life),
         accounts=accounts,
@@ -161,7 +182,7 @@ def build_house(settings: Settings, rig: Rig, drawer: PortraitDrawer, tailor: Ta
         noise=noise,
         results=StudyResults(journal, noise),
         analyst=analyst,
-        analyses=Analyses(database, exports, analyst),
+        analyses=Analyses(database, exports, analyst, models),
         thumbnails=Thumbnails(portraits),
         withdrawals=Withdrawals(journal),
         monitor=Monitor(database),

@@ -13,6 +13,18 @@ from .house import House, build_house
 
 if TYPE_CHECKING:
     from ..settings import Settings
+    from .faces.face_model import FaceModel
+    from .faces.model_drawers import DrawerOf
+
+
+def _drawer_of(settings: Settings) -> DrawerOf:
+    """Return what starts the drawing processes of another face model."""
+
+    def started(model: FaceModel) -> PoolDrawer:
+        rig, look = model.files
+        return PoolDrawer(RenderPool(settings.render_workers or None, settings.renderer, rig=rig, look=look))
+
+    return started
 
 
 def open_house(settings: Settings, *, drawing: bool = True) -> House:
@@ -26,7 +38,7 @@ def open_house(settings: Settings, *, drawing: bool = True) -> House:
         return build_house(settings, rig, NoDrawer(rig.hash, look_for(rig).hash, settings.renderer))
     pool = RenderPool(settings.render_workers or None, settings.renderer)
     try:
-        return build_house(settings, rig, PoolDrawer(pool))
+        return build_house(settings, rig, PoolDrawer(pool), drawer_of=_drawer_of(settings))
     except BaseException:
         pool.close()
         raise

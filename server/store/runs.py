@@ -167,10 +167,10 @@ def faces_on_screen(tx: Tx, trial: Trial) -> Sequence[Face]:
     ).all()
 
 
-def running_with(tx: Tx, rig_hash: str) -> Sequence[str]:
+def running_with(tx: Tx, rig_hashes: Sequence[str]) -> Sequence[str]:
     """Return the ids of the participations that are running on a rig."""
     return tx.scalars(
-        select(Participation.id).where(Participation.outcome.is_(None), Participation.rig_hash == rig_hash)
+        select(Participation.id).where(Participation.outcome.is_(None), Participation.rig_hash.in_(rig_hashes))
     ).all()
 
 

@@ -12,7 +12,7 @@ from tests.browser.stage import running
 from tests.browser.test_accessibility import must_be_accessible
 
 pytestmark = pytest.mark.browser
-SECONDS = 20_000
+SECONDS = 60_000
 
 
 @pytest.fixture(scope="module")

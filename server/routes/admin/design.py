@@ -142,8 +142,11 @@ async def _done(study: str, me: SignedIn, form: Fields, house: House, command: s
 
 async def _drawn(form: Fields, house: House, me: SignedIn, target: str) -> str:
     """Return the portrait of a head as it is typed, as an address that holds the picture itself."""
-    identity = await run(house.editor.typed_head, form, target)
-    promise = await run(house.heads.preview, identity, _last(form, "emotion") or NEUTRAL, me.user)
+    head, emotion = await run(house.editor.typed_head, form, target), _last(form, "emotion") or NEUTRAL
+    if isinstance(head, str):
+        promise = await run(house.heads.portrait, head, large=True, emotion=emotion)
+    else:
+        promise = await run(house.heads.preview, head, emotion, me.user)
     picture = await within(promise, house.settings.portrait_wait_seconds)
     return f"data:image/png;base64,{base64.b64encode(picture).decode()}"
 
@@ -152,11 +155,12 @@ def _page(  # noqa: PLR0913, PLR0917 - what the page shows
     me: SignedIn, house: House, study: str, desk: Desk, status: int = 200, picture: str = "", saved: int | None = None
 ) -> Response:
     emotion = desk.notes.get("emotion", NEUTRAL)
-    emotions = (NEUTRAL, *(one for one in TESTED if one in house.heads.emotions))
+    face = house.editor.face(desk)
+    emotions = (NEUTRAL, *(one for one in TESTED if one in house.heads.emotions_of(face.preset)))
     return study_page(
         "design", me, house, study, status, desk=desk, cards=desk.shown.cards, wrong=desk.wrong,
         problem="There is a problem" if desk.wrong else None, emotions=emotions, emotion=emotion,
-        face=house.editor.face(desk), picture=picture, just_saved=saved, offers=house.previews.offers(study),
+        face=face, picture=picture, just_saved=saved, offers=house.previews.offers(study),
     )  # fmt: skip
 
 

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 router = APIRouter(prefix="/admin/heads", include_in_schema=False)
 
-Name = Annotated[str, Path(pattern="^[a-z-]{1,40}$")]
+Name = Annotated[str, Path(pattern="^[a-z0-9-]{1,40}(:[A-Za-z0-9_.-]{1,80})?$")]
 From = Annotated[str, Query(alias="from", max_length=40)]
 Emotion = Annotated[str, Query(max_length=40)]
 FIRST = "female"

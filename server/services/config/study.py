@@ -36,7 +36,7 @@ class StudyConfig(Part):
         paper="happy, sad, angry and fearful",
     )
     identities: Annotated[tuple[Head, ...], Field(min_length=1, max_length=20)] = option(
-        ("female",), "Heads", "The person whose expression evolves: a preset, or an identity document."
+        ("female",), "Heads", "The person whose expression evolves: a preset, MODEL:HEAD, or an identity document."
     )
     head_assignment: Literal["between", "within"] = option(
         "between", "Heads differ", "between: people, each sees one head. within: every block is done with each head.",

@@ -23,6 +23,7 @@ from emogen_core.rigs.default_look import appearance_of
 from emogen_core.rigs.identities import IDENTITIES, preset
 
 from ..errors import ConflictError, InvalidError, NotFoundError
+from .face_model import MARK
 from .sketch import Sketch
 from .wardrobe import refusal
 
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
     from emogen_core.face.rig import Rig
     from emogen_core.face.space import IdentitySpace
 
+    from .models import FaceModels
     from .portraits import Portraits
     from .wardrobe import Wardrobe
 
@@ -51,6 +53,7 @@ class Heads:
     rig: Rig
     wardrobe: Wardrobe
     portraits: Portraits
+    models: FaceModels
     _tried: OrderedDict[str, tuple[WornHead, Rig]] = field(default_factory=OrderedDict)
     _latest: dict[str, int] = field(default_factory=dict)
     _lock: threading.Lock = field(default_factory=threading.Lock)
@@ -66,9 +69,19 @@ class Heads:
         return tuple(name for name in IDENTITIES if name in self.rig.neutrals)
 
     @property
+    def named(self) -> tuple[str, ...]:
+        """The heads that a study may have by their names: the presets, and those of the other face models."""
+        others = (f"{row.name}{MARK}{head}" for row in self.models.all() for head in row.heads)
+        return (*self.presets, *others)
+
+    @property
     def emotions(self) -> tuple[str, ...]:
         """Neutral, and the emotions that the rig has prototypes of."""
         return (NEUTRAL, *self.rig.emotion_sets)
+
+    def emotions_of(self, name: str) -> tuple[str, ...]:
+        """Return neutral, and the emotions that the rig of a named head has prototypes of; of others, the bundled."""
+        return (NEUTRAL, *(self.wardrobe.rig(name) if MARK in name else self.rig).emotion_sets)
 
     def start(self, name: str) -> Identity:
         """Return a preset to go on from.
@@ -101,16 +114,17 @@ class Heads:
         return appearance_of(identity, self.space)
 
     def portrait(self, name: str, *, large: bool = False, emotion: str = NEUTRAL) -> Future[bytes]:
-        """Return the promise of a preset's portrait, neutral or with one of the rig's prototypes.
+        """Return the promise of a named head's portrait, neutral or with one of its rig's prototypes.
 
         Raises:
-            NotFoundError: there is no such preset.
+            NotFoundError: there is no such head.
             InvalidError: there is no such emotion.
         """
-        if name not in self.presets:
+        rig = self.wardrobe.rig(name) if MARK in name else self.rig
+        if name not in rig.neutrals or (rig is self.rig and name not in self.presets):
             raise NotFoundError("There is no such head.", field="name", got=name)
-        self._check_emotion(emotion)
-        weights = self._weights(self.rig, name, emotion)
+        _check_emotion(rig, emotion)
+        weights = self._weights(rig, name, emotion)
         return self.portraits.sketched(Sketch(name, weights, LARGE if large else SMALL))
 
     def preview(self, identity: Identity, emotion: str, user: str) -> Future[bytes]:
@@ -126,23 +140,13 @@ class Heads:
             ConflictError: the same person has asked for a newer one.
             UnavailableError: other heads are being fitted for longer than anybody should wait.
         """
-        self._check_emotion(emotion)
+        _check_emotion(self.rig, emotion)
         head, rig = self._worn(identity, self._ticket(user), user, moving=emotion != NEUTRAL)
         return self.portraits.sketched(Sketch(head.name, self._weights(rig, head.name, emotion), LARGE), head)
 
-    @property
-    def _rest(self) -> NDArray[np.float32]:
-        """(K,) weights of a face at rest. Every head was made so that it collides with nothing then."""
-        return np.zeros(len(self.rig.shape_names), np.float32)
-
-    def _check_emotion(self, emotion: str) -> None:
-        if emotion not in self.emotions:
-            wanted = f"one of {', '.join(self.emotions)}"
-            raise InvalidError("There is no such emotion.", field="emotion", expected=wanted, got=emotion)
-
     def _weights(self, rig: Rig, head: str, emotion: str) -> NDArray[np.float32]:
-        if emotion == NEUTRAL:
-            return self._rest
+        if emotion == NEUTRAL:  # every head was made so that it collides with nothing at rest
+            return np.zeros(len(rig.shape_names), np.float32)
         weights: NDArray[np.float32] = face_weights(rig, head, rig.emotion_genes(emotion)[np.newaxis]).weights[0]
         return weights
 
@@ -170,3 +174,10 @@ class Heads:
             while len(self._tried) > _REMEMBERED:
                 self._tried.popitem(last=False)
         return worn
+
+
+def _check_emotion(rig: Rig, emotion: str) -> None:
+    known = (NEUTRAL, *rig.emotion_sets)
+    if emotion not in known:
+        wanted = f"one of {', '.join(known)}"
+        raise InvalidError("There is no such emotion.", field="emotion", expected=wanted, got=emotion)

@@ -133,7 +133,7 @@ class Portraits:
         if found is not None:
             return _kept(found)
         sketch, rig_hash = self._row(key)
-        if rig_hash != self._wardrobe.rig("").hash:
+        if rig_hash != self._wardrobe.rig_hash(sketch.identity):
             raise NotFoundError("This face was made on another face model and cannot be drawn on this one.")
         self._wardrobe.wait(sketch.identity)
         return self.sketched(sketch)

@@ -21,6 +21,7 @@ from emogen_core.rendering.worn import WornHead, worn_rig
 
 from ..background import watched
 from ..errors import ConflictError, InvalidError, UnavailableError
+from .face_model import FileModels
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from emogen_core.face.space import IdentitySpace
 
     from ..config import StudyConfig
+    from .face_model import Models
 
 Made = TypeVar("Made")
 LIMIT = 24
@@ -68,9 +70,12 @@ class _Peg:
 class Wardrobe:
     """The rig of the house, and what it wears besides its own heads. Safe to use from several threads."""
 
-    def __init__(self, rig: Rig, tailor: Tailor, patience: float = 20.0, limit: int = LIMIT) -> None:
+    def __init__(
+        self, rig: Rig, tailor: Tailor, patience: float = 20.0, limit: int = LIMIT, models: Models | None = None
+    ) -> None:
         """Keep `limit` heads; whoever waits for one waits `patience` seconds at most for its turn."""
         self._rig, self._tailor, self._patience, self._limit = rig, tailor, patience, limit
+        self._models: Models = models or FileModels()
         self._pegs: OrderedDict[str, _Peg] = OrderedDict()
         self._lock = threading.Lock()
         self._needle = threading.Lock()
@@ -155,9 +160,32 @@ class Wardrobe:
 
         Raises:
             UnavailableError: it is not ready; `wait` makes it so.
+            NotFoundError: it is of a face model that is not here.
         """
         peg = self._peg(identity)
-        return self._rig if peg is None else _there(peg.rig)
+        if peg is not None:
+            return _there(peg.rig)
+        model = self._models.of(identity)
+        return self._rig if model is None else model.rig
+
+    def rig_hash(self, identity: str) -> str:
+        """Return the hash of the rig that a head is of, fitted or not; raises `NotFoundError` as `rig`."""
+        model = self._models.of(identity)
+        return (self._rig if model is None else model.rig).hash
+
+    @property
+    def rig_hashes(self) -> tuple[str, ...]:
+        """The hashes of all rigs of this server, the bundled one first."""
+        return (self._rig.hash, *self._models.hashes)
+
+    def rig_of(self, config: StudyConfig) -> Rig:
+        """Return the rig of a study: that of its heads, the bundled one for documents.
+
+        Raises:
+            NotFoundError: it is of a face model that is not here.
+        """
+        named = next((head for head in config.identities if isinstance(head, str)), "")
+        return self.rig(named)
 
     def head(self, identity: str) -> WornHead | None:
         """Return a head as drawing processes need it, none for those that they have; raises as `rig`."""

@@ -154,7 +154,7 @@ class Joining:
         check_device(own.devices, came.device)
         participation.device = _device(own, came)
         participation.number = runs.joined(tx, participation.study_id)
-        seat(tx, self.journal.rig, participation, own, place)
+        seat(tx, self.journal.rig_of(own), participation, own, place)
 
     def _full(self, entry: Entry, kept: Mapping[str, str]) -> Entry:
         code = entry.config.completion.codes.get("full")

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Journal:
-    """The tools of every service that works on a participation."""
+    """The tools of every service that works on a participation; `rig` is the bundled one."""
 
     database: Database
     rig: Rig
@@ -39,10 +39,18 @@ class Journal:
         """The corrective pipeline of the rig."""
         return Correction(self.wardrobe.rig)
 
+    def rig_of(self, config: StudyConfig) -> Rig:
+        """Return the rig of a study: that of its heads.
+
+        Raises:
+            NotFoundError: it is of a face model that is not here.
+        """
+        return self.wardrobe.rig_of(config)
+
     def evolution(self, config: StudyConfig) -> Evolution:
-        """Return the search of a study."""
+        """Return the search of a study; raises as `rig_of`."""
         self.wardrobe.know(config)
-        return Evolution(self.rig, config, self.correction, self.portraits.key)
+        return Evolution(self.rig_of(config), config, self.correction, self.portraits.key)
 
     def walk(self, tx: Tx, participation: Participation, config: StudyConfig) -> Walk:
         """Return a participation inside a transaction, ready to go on."""

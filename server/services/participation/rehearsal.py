@@ -36,7 +36,7 @@ def rehearse(journal: Journal, token: str, body: AnswerBody) -> dict[tuple[str, 
     with journal.database.read() as tx:
         participation, config = journal.find(tx, token)
         walk = journal.walk(tx, participation, config)
-        faces = _following(walk, body) if participation.rig_hash == journal.rig.hash else []
+        faces = _following(walk, body) if participation.rig_hash == walk.evolution.rig.hash else []
     for identity, genes in faces:
         journal.wardrobe.wait(identity)
         with suppress(EmogenError):

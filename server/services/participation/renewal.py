@@ -31,7 +31,7 @@ def renew_portraits(journal: Journal) -> int:
     with journal.database.read() as tx:
         if keys.known(tx, MARK) == look:
             return 0
-        running = runs.running_with(tx, journal.rig.hash)
+        running = runs.running_with(tx, journal.wardrobe.rig_hashes)
     changed = 0
     for participation_id in running:
         with journal.database.write() as tx:

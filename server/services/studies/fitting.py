@@ -9,6 +9,7 @@ from emogen_core.search.params import POPULATION
 
 from ..config import Categorise, Problem, Rate
 from ..errors import InvalidError
+from ..faces.face_model import MARK
 from ..trials.evolution import params_of
 
 if TYPE_CHECKING:
@@ -52,8 +53,11 @@ def misfits(rig: Rig, config: StudyConfig) -> tuple[Problem, ...]:
 
 def _misfits(rig: Rig, config: StudyConfig, where: str) -> Iterator[Problem]:
     for place, head in enumerate(config.identities):
+        field = f"{where}identities.{place}"
         if isinstance(head, str) and head not in rig.identities:
-            yield Problem(f"{where}identities.{place}", f"expected one of {', '.join(rig.identities)}", repr(head))
+            yield Problem(field, f"expected one of {', '.join(rig.identities)}", repr(head))
+        elif not isinstance(head, str) and MARK in rig.identities[0]:
+            yield Problem(field, "expected heads of one face model; documents are for the bundled one", "a document")
     found = [*_genes(rig, config), *_populations(rig, config)]
     if not found:
         found = [*_rest(rig, config)]

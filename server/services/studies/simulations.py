@@ -7,7 +7,7 @@ import threading
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...store import accounts as rows
 from ...store import studies
@@ -26,12 +26,22 @@ if TYPE_CHECKING:
     from contextlib import AbstractAsyncContextManager
     from datetime import datetime
 
+    from emogen_core.face.rig import Rig
     from emogen_core.search.params import SearchParams
 
     from ..participation.journal import Journal
     from ..people.tokens import Tokens
 
     ClientOf = Callable[[], AbstractAsyncContextManager[Any]]
+
+
+class _Way(NamedTuple):
+    """The link that simulated participants come by, and the rig and the search that they meet."""
+
+    link: str
+    rig: Rig
+    params: SearchParams
+
 
 MOST = 50
 MOST_SEED = 2**31 - 1
@@ -95,7 +105,7 @@ class Simulations:
             ConflictError: nobody can join it now, or another run is not over.
         """
         _check(count, seed)
-        link, params = self._way(study_id)
+        way = self._way(study_id)
         with self._lock:
             if self._run is not None and self._run.running:
                 raise ConflictError("Simulated participants are on their way already. Wait until they are through.")
@@ -105,7 +115,7 @@ class Simulations:
             with self._journal.database.write() as tx:
                 audit(tx, user, "send simulated participants", study_id, count=count, seed=seed)
             run = self._run = _Run(study_id, count, seed)
-            run.work = self._behind.submit(self._work, run, link, params, token, user)
+            run.work = self._behind.submit(self._work, run, way, token, user)
             watched(run.work, "simulated participants failed")
         return _told(run)
 
@@ -124,8 +134,8 @@ class Simulations:
             self._run.stop()
         self._behind.shutdown(wait=True)
 
-    def _way(self, study_id: str) -> tuple[str, SearchParams]:
-        """Return the link that they come by, and the search that they meet."""
+    def _way(self, study_id: str) -> _Way:
+        """Return the link that they come by, and the rig and the search that they meet."""
         with self._journal.database.read() as tx:
             study = studies.study(tx, study_id)
             version = studies.latest_version(tx, study_id)
@@ -136,11 +146,13 @@ class Simulations:
             raise ConflictError(f"Nobody can join a study that is {study.status}. Start its pilot first.")
         if not links:
             raise ConflictError("This study has no open general link. Make one on the tab Recruit.")
-        return links[0], params_of(self._journal.rig, parsed(version))
+        config = parsed(version)
+        rig = self._journal.rig_of(config)
+        return _Way(links[0], rig, params_of(rig, config))
 
-    def _work(self, run: _Run, link: str, params: SearchParams, token: str, user: str | None) -> None:
+    def _work(self, run: _Run, way: _Way, token: str, user: str | None) -> None:
         try:
-            asyncio.run(self._sent(run, link, params, token))
+            asyncio.run(self._sent(run, way, token))
         except asyncio.CancelledError:
             run.problem = "The server was stopped."
         except ServiceError as error:
@@ -151,7 +163,7 @@ class Simulations:
         finally:
             self._revoke(token, user)
 
-    async def _sent(self, run: _Run, link: str, params: SearchParams, token: str) -> None:
+    async def _sent(self, run: _Run, way: _Way, token: str) -> None:
         assert self._client_of is not None, "create_app says how the interface is reached"
         task, loop = asyncio.current_task(), asyncio.get_running_loop()
         assert task is not None
@@ -159,7 +171,7 @@ class Simulations:
         if run.stopping.is_set():
             raise asyncio.CancelledError
         async with self._client_of() as client:
-            simulation = Simulation(client, link, token, run.report.seed, self._journal.rig, params=params)
+            simulation = Simulation(client, way.link, token, run.report.seed, way.rig, params=way.params)
             await simulation.run(run.report.participants, run.report)
 
     def _revoke(self, token: str, user: str | None) -> None:

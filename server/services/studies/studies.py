@@ -13,7 +13,7 @@ from ..clock import now
 from ..config import DEMO, StudyConfig
 from ..config.stored import parsed
 from ..config.way_back import check_redirects
-from ..errors import ConflictError, NoStudyError
+from ..errors import ConflictError, InvalidError, NoStudyError, NotFoundError
 from ..participation.joining import OPEN
 from ..people.accounts import audit
 from .fitting import require_fit
@@ -90,7 +90,11 @@ class Studies:
         Raises:
             InvalidError: names what does not fit.
         """
-        require_fit(self.journal.rig, config)
+        try:
+            rig = self.journal.rig_of(config)
+        except NotFoundError as error:
+            raise InvalidError(error.message, field="identities", got=error.got) from error
+        require_fit(rig, config)
         check_redirects(config, self.journal.redirect_hosts)
 
     def demo(self, status: str = "recruiting", owner: str | None = None) -> StudySummary:

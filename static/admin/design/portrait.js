@@ -47,7 +47,7 @@ async function picture(form, panel, emotion, large) {
     return reply.blob();
   }
   const name = panel.querySelector('[name$=".preset"]:checked')?.value;
-  if (!/^[a-z-]{1,40}$/.test(name ?? "")) throw new Error("The face model has no such head.");
+  if (!/^[a-z0-9-]{1,40}(:[A-Za-z0-9_.-]{1,80})?$/.test(name ?? "")) throw new Error("The face model has no such head.");
   const reply = await fetch(`/admin/heads/portraits/${name}.png?emotion=${emotion}${large ? "&large=1" : ""}`);
   if (!reply.ok) throw new Error("The portrait could not be drawn. Try again.");
   return reply.blob();

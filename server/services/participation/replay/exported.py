@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import json
 from collections import defaultdict
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -33,17 +33,25 @@ if TYPE_CHECKING:
     """Trial, attempt, generation."""
 
 
+class _Numbers(NamedTuple):
+    """(F, G) genes and (F, K) weights of all faces of an export."""
+
+    genes: NDArray[np.float64]
+    weights: NDArray[np.float64]
+
+
 @dataclass(frozen=True)
 class ExportReplay:
-    """Replays the participations of an export that were recorded on a rig.
+    """Replays the participations of an export, each on the rig of its heads.
 
     Raises:
         EmogenClientError: the export lacks a file, or one is not the one that its manifest tells of.
     """
 
     export: Export
-    rig: Rig
     wardrobe: Wardrobe
+    _comparisons: dict[str, Comparison] = field(default_factory=dict)
+    _numbers: dict[str, _Numbers] = field(default_factory=dict)
 
     def everybody(self, done: Callable[[int, int], object] = lambda _done, _of: None) -> Replayed:
         """Replay every participation, up to the first difference.
@@ -55,10 +63,10 @@ class ExportReplay:
             NotFoundError: one was recorded on another face model.
             ConflictError: a head cannot be fitted any more.
         """
-        comparison, count = Comparison(self.rig, self.wardrobe), 0
+        count = 0
         for at, row in enumerate(self._people, 1):
             recorded = self.recorded(row)
-            replayed = comparison.of(recorded) if isinstance(recorded, Recorded) else Replayed(0, recorded)
+            replayed = self._replayed(recorded) if isinstance(recorded, Recorded) else Replayed(0, recorded)
             count += replayed.generations
             if replayed.difference:
                 return Replayed(count, replayed.difference)
@@ -74,21 +82,23 @@ class ExportReplay:
 
     def recorded(self, row: Row) -> Recorded | Difference:
         """Return a participation as the export has it, or what is wrong in the export itself."""
-        if row["rig_hash"] != self.rig.hash:
-            raise other_rig(self.rig.hash, row["rig_hash"])
         who = row["participation"]
         wrong = self._record.wrong(row)
         if wrong:
             return _amiss(who, *wrong)
+        config = self._record.own(row)
+        rig = self.wardrobe.rig_of(config)
+        if row["rig_hash"] != rig.hash:
+            raise other_rig(rig.hash, row["rig_hash"])
         marked = self._marked(who)
         if marked:
             return marked
         complete = row["outcome"] == "complete"
         return Recorded(
-            who, row["seed"], self._record.own(row),
+            who, row["seed"], config,
             Seat(row["head"] or "", row["order_row"], tuple(json.loads(row["trial_order"]))),
             complete, "some" if self._partial else "all" if complete else "begun",
-            [(trial, self._shown(trial)) for trial in self._trials[who]],
+            [(trial, self._shown(trial, rig)) for trial in self._trials[who]],
         )  # fmt: skip
 
     def _marked(self, who: str) -> Difference | None:
@@ -102,17 +112,23 @@ class ExportReplay:
                     return Difference(who, *where, face["slot"], "marks", *told)
         return None
 
-    def _shown(self, trial: Trial) -> list[tuple[Generation, list[Face], ChoiceRecord | None]]:
+    def _replayed(self, recorded: Recorded) -> Replayed:
+        rig = self.wardrobe.rig_of(recorded.config)
+        if rig.hash not in self._comparisons:
+            self._comparisons[rig.hash] = Comparison(rig, self.wardrobe)
+        return self._comparisons[rig.hash].of(recorded)
+
+    def _shown(self, trial: Trial, rig: Rig) -> list[tuple[Generation, list[Face], ChoiceRecord | None]]:
         return [
             (
                 Generation(trial_id=trial.id, attempt=where[1], number=where[2]),
-                [self._face(at, row) for at, row in self._offered[where]],
+                [self._face(at, row, self._of(rig)) for at, row in self._offered[where]],
                 _choice(self._choices.get(where)),
             )
             for where in self._generations.get(trial.id, ())
         ]
 
-    def _face(self, at: int, row: Row) -> Face:
+    def _face(self, at: int, row: Row, numbers: _Numbers) -> Face:
         return Face(
             id=row["face"],
             slot=row["slot"],
@@ -120,8 +136,8 @@ class ExportReplay:
             origin=row["origin"],
             parents=json.loads(row["parents"]),
             identity=row["identity"],
-            genes=pack_genes(self._genes[at]),
-            weights=pack_weights(self._weights[at].astype(np.float32)),
+            genes=pack_genes(numbers.genes[at]),
+            weights=pack_weights(numbers.weights[at].astype(np.float32)),
             collided_lips=row["collided_lips"],
             collided_teeth=row["collided_teeth"],
             depth_before=row["depth_before_mm"],
@@ -182,13 +198,12 @@ class ExportReplay:
             faces.sort(key=lambda one: one[1]["slot"])
         return found
 
-    @cached_property
-    def _genes(self) -> NDArray[np.float64]:
-        return matrix(self._faces, "gene_", self.rig.gene_names)
-
-    @cached_property
-    def _weights(self) -> NDArray[np.float64]:
-        return matrix(self._faces, "weight_", self.rig.shape_names)
+    def _of(self, rig: Rig) -> _Numbers:
+        """Return the numbers of all faces by the names of a rig; of another rig's faces they mean nothing."""
+        if rig.hash not in self._numbers:
+            genes = matrix(self._faces, "gene_", rig.gene_names)
+            self._numbers[rig.hash] = _Numbers(genes, matrix(self._faces, "weight_", rig.shape_names))
+        return self._numbers[rig.hash]
 
 
 def _where(row: Row) -> Where:

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
     from concurrent.futures import Future
 
-    from ...faces.drawing import PoolDrawer
+    from ...faces.portraits import PortraitDrawer
     from ...faces.wardrobe import Wardrobe
     from .recorded import Recorded
 
@@ -26,7 +26,7 @@ AHEAD = 64
 class Album:
     """Draws the faces of recorded participations."""
 
-    drawer: PoolDrawer
+    drawer: PortraitDrawer
     wardrobe: Wardrobe
 
     def pictures(self, people: Iterable[Recorded], which: Which) -> Iterator[tuple[str, bytes]]:

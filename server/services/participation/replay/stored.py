@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 from ....store import runs, studies
@@ -49,7 +48,8 @@ class Replay:
             ConflictError: the head that it saw cannot be fitted any more.
         """
         # Fitting a head takes seconds, and so does the search: not inside a transaction.
-        return self._comparison.of(self._recorded(participation_id))
+        recorded = self._recorded(participation_id)
+        return Comparison(self.journal.rig_of(recorded.config), self.journal.wardrobe).of(recorded)
 
     def checked(self, participation_id: str) -> tuple[Replayed | None, str | None]:
         """Replay one participation for a page: what it covered, or why it cannot be replayed here."""
@@ -58,20 +58,18 @@ class Replay:
         except ServiceError as error:
             return None, error.message
 
-    @cached_property
-    def _comparison(self) -> Comparison:
-        return Comparison(self.journal.rig, self.journal.wardrobe)
-
     def _recorded(self, participation_id: str) -> Recorded:
         with self.journal.database.read() as tx:
             participation = runs.participation(tx, participation_id)
             if participation is None:
                 raise NotFoundError("There is no such participation.", got=participation_id)
-            if participation.rig_hash != self.journal.rig.hash:
-                raise other_rig(self.journal.rig.hash, participation.rig_hash)
+            config = own_config(tx, participation)
+            expected = self.journal.rig_of(config).hash
+            if participation.rig_hash != expected:
+                raise other_rig(expected, participation.rig_hash)
             trials = [(trial, runs.generations_with_faces(tx, trial.id)) for trial in runs.trials(tx, participation.id)]
             return Recorded(
-                participation.id, participation.seed, own_config(tx, participation), _seat(participation),
+                participation.id, participation.seed, config, _seat(participation),
                 participation.outcome == "complete", "all", trials,
             )  # fmt: skip
 

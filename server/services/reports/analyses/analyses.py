@@ -18,7 +18,9 @@ from ....store import revisions, studies
 from ....store.analyses_tables import Analysis
 from ...background import watched
 from ...clock import local, new_id, now
+from ...config.stored import parsed
 from ...errors import ConflictError, InvalidError, NotFoundError, ServiceError
+from ...faces.face_model import FileModels
 from ...people.accounts import audit
 from ..tables.package import write_zip
 from ..tables.selection import Filters
@@ -29,6 +31,7 @@ if TYPE_CHECKING:
     from datetime import datetime
 
     from ....store.engine import Database
+    from ...faces.face_model import Models
     from ..tables.export import Exports
 
     Make = Callable[[Path, Path, Sequence[str]], None]
@@ -76,6 +79,7 @@ class Analyses:
     database: Database
     exports: Exports
     make: Make
+    models: Models = field(default_factory=FileModels)
     _behind: ThreadPoolExecutor = field(default_factory=lambda: ThreadPoolExecutor(1, thread_name_prefix="analysis"))
     _busy: threading.Lock = field(default_factory=threading.Lock)
     """Held from the moment a report is asked for until it is there: nothing queues, so that leases need not allow for
@@ -148,6 +152,13 @@ class Analyses:
         """Make nothing more; `make` has to end what it is at."""
         self._behind.shutdown(wait=True, cancel_futures=True)
 
+    def _rig(self, study_id: str) -> list[str]:
+        """Return the option that names the rig of a study that is not on the bundled one."""
+        with self.database.read() as tx:
+            version = studies.latest_version(tx, study_id)
+        model = self.models.of(next(iter(parsed(version).heads))) if version else None
+        return ["--rig", str(model.files[0])] if model else []
+
     def _asked(self, study_id: str, who: str, user: str | None) -> str:
         """Write down that a report is being made; return its id."""
         with self.database.write() as tx:
@@ -187,7 +198,7 @@ class Analyses:
         with TemporaryDirectory(prefix="emogen-analysis-") as folder:
             export, out = Path(folder, f"{study_id}.zip"), Path(folder, "report")
             write_zip(self.exports.package(study_id, "parquet", filters).entries(), export)
-            self.make(export, out, options)
+            self.make(export, out, [*options, *self._rig(study_id)])
             counted = json.loads((out / ABOUT).read_text(encoding="utf-8"))["counted"]
             return _zipped(out), str(counted)
 

@@ -102,7 +102,7 @@ class Records:
             id=row.id,
             entry=entry(row, version),
             config_hash=row.config_hash,
-            same_rig=row.rig_hash == self.journal.rig.hash,
+            same_rig=row.rig_hash == self.journal.rig_of(config).hash,
             answers=roster.number_of_answers(tx, row.id),
             before=before,
             after=after,

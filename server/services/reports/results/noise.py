@@ -23,6 +23,7 @@ from ...errors import UnavailableError
 from ...trials.evolution import algorithm_of, simulated
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from concurrent.futures import Future
     from pathlib import Path
 
@@ -70,7 +71,7 @@ def settling_of(noise: Threshold | None) -> Settling | None:
 class NoiseOfSearch:
     """Knows the noise of every search that was asked for."""
 
-    rig: Rig
+    rig_of: Callable[[StudyConfig], Rig]
     folder: Path
     searches: int = SEARCHES
     _known: dict[str, Threshold] = field(default_factory=dict)
@@ -106,8 +107,9 @@ class NoiseOfSearch:
                 raise UnavailableError("The server is stopping.")
 
         try:
-            params, drawn = simulated(self.rig, config)
-            laboratory = Laboratory(self.rig, self.rig.identities[0], SEED, params, pause, drawn)
+            rig = self.rig_of(config)
+            params, drawn = simulated(rig, config)
+            laboratory = Laboratory(rig, rig.identities[0], SEED, params, pause, drawn)
             noise = threshold(laboratory, self.searches)
             with self._lock:
                 self._known[key] = noise
@@ -118,9 +120,10 @@ class NoiseOfSearch:
 
     def _key(self, config: StudyConfig) -> str:
         """Return the hash of all that the noise depends on; a study's texts do not change it."""
-        params, drawn = simulated(self.rig, config)
+        rig = self.rig_of(config)
+        params, drawn = simulated(rig, config)
         told: dict[str, Any] = asdict(params) | {"drawn": None if drawn is None else drawn.tolist()}
-        told |= {"rig": self.rig.hash, "algorithm": algorithm_of(config), "version": VERSION, "searches": self.searches}
+        told |= {"rig": rig.hash, "algorithm": algorithm_of(config), "version": VERSION, "searches": self.searches}
         return hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()
 
     def _read(self, key: str) -> Threshold | None:

@@ -122,7 +122,7 @@ class StudyResults:
 
     def _count(self, study_id: str, filters: Filters, config: StudyConfig, noise: Threshold | None) -> Results:
         with self.journal.database.read() as tx:
-            data = read(tx, study_id, filters, self.journal.rig.hash, _first_block(config))
+            data = read(tx, study_id, filters, self.journal.rig_of(config).hash, _first_block(config))
             versions = [config_of(tx, version.id) for version in studies.versions(tx, study_id)]
         # A head may be of an older version only.
         for own in (one for version in versions for one in version.whole):

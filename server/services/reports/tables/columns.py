@@ -24,8 +24,9 @@ WHEN = (
     integer("generation", "0 is the initial population."),
 )
 _HEAD = (
-    "a preset's name, or custom- and the first 12 letters of the hash of an identity document, which stands among the"
-    " identities of the configuration with this row's config_hash (address configurations, file configurations.json)."
+    "a preset's name, MODEL:HEAD for a head of another face model, or custom- and the first 12 letters of the hash of"
+    " an identity document, which stands among the identities of the configuration with this row's config_hash"
+    " (address configurations, file configurations.json)."
 )
 _CLOCK = "on the page's clock, from the navigation"
 KINDS = ("evolve", "rate", "categorise", "attention", "questionnaire")

@@ -153,12 +153,12 @@ class Editor:
         node, letter = heads[place], letter_of(place)
         value, saved = node.extra["value"], desk.saved.get(f"{node.name}.document")
         if isinstance(value, str):
-            return Face(node.name, letter, preset=value if value in self.heads.presets else "")
+            return Face(node.name, letter, preset=value if value in self.heads.named else "")
         same = saved == desk.fields.get(f"{node.name}.document") and not node.changed
         return Face(node.name, letter, row=int(node.key) if same else None)
 
-    def typed_head(self, fields: Fields, name: str) -> Identity:
-        """Return a head as it is typed.
+    def typed_head(self, fields: Fields, name: str) -> Identity | str:
+        """Return a head as it is typed: its name, or what a document describes.
 
         Raises:
             InvalidError: it is no head.
@@ -168,7 +168,7 @@ class Editor:
         value = shape.item.read(given, name) if isinstance(shape, Rows) else ""
         for problem in given.problems.values():
             raise InvalidError(problem.sentence, field=problem.field, expected=problem.expected, got=problem.got)
-        return self.heads.start(value) if isinstance(value, str) else self.heads.read(value)
+        return value if isinstance(value, str) else self.heads.read(value)
 
     def head(self, study_id: str, number: int | None, row: int) -> Identity:
         """Return a head of a saved version.

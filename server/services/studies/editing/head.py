@@ -75,7 +75,7 @@ class Head:
         if document and identity:
             extra |= self._controls(identity)
             extra["typed"] = {one.removeprefix(f"{name}.{HEAD}."): given.one(one) for one in names}
-        presets = [Choice(one, one.capitalize()) for one in self.heads.presets]
+        presets = [Choice(one, one.capitalize()) for one in self.heads.named]
         values = [given.one(f"{name}.{DOCUMENT if document else PRESET}")]
         whole = (f"{name}.{VARIANT}", *([] if document else [f"{name}.{PRESET}"]), *names)
         return Node(HEAD, name, path, self.words, values, presets, names=whole, extra=extra)

@@ -20,7 +20,7 @@ def replayed(house, folder):
     """Replay an export with the rig and the heads of a house."""
     export = SoundExport(folder)
     export.verify()
-    return ExportReplay(export, house.journal.rig, house.journal.wardrobe).everybody()
+    return ExportReplay(export, house.journal.wardrobe).everybody()
 
 
 def tampered(folder, table, change):

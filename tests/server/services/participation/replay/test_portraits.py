@@ -15,7 +15,7 @@ def people(house, client, tmp_path):
     study = house.studies.create(small_study(generations=3))
     Walker(client, study.links[0]).finish()
     folder = exported(house, study, tmp_path / "export")
-    return list(ExportReplay(Export(folder), house.journal.rig, house.journal.wardrobe).participations())
+    return list(ExportReplay(Export(folder), house.journal.wardrobe).participations())
 
 
 @pytest.mark.parametrize("which", ["finished", "best", "all"])

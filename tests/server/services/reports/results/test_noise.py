@@ -10,7 +10,7 @@ from tests.conftest import small_study
 
 @pytest.fixture
 def noise(rig, tmp_path):
-    made = NoiseOfSearch(rig, tmp_path / "noise", searches=100)
+    made = NoiseOfSearch(lambda _: rig, tmp_path / "noise", searches=100)
     yield made
     made.close()
 
@@ -37,7 +37,7 @@ def test_it_depends_on_the_search_and_not_on_the_words(noise):
 
 def test_other_processes_find_it(noise, rig, tmp_path):
     first = known(noise, small_study())
-    other = NoiseOfSearch(rig, tmp_path / "noise", searches=100)
+    other = NoiseOfSearch(lambda _: rig, tmp_path / "noise", searches=100)
     assert other.of(small_study()) == first
     other.close()
 
@@ -46,14 +46,14 @@ def test_other_processes_find_it(noise, rig, tmp_path):
 def test_a_damaged_file_is_made_anew(noise, rig, tmp_path, damage):
     first = known(noise, small_study())
     next(noise.folder.iterdir()).write_text(damage)
-    other = NoiseOfSearch(rig, tmp_path / "noise", searches=100)
+    other = NoiseOfSearch(lambda _: rig, tmp_path / "noise", searches=100)
     assert known(other, small_study()) == first
     other.close()
 
 
 def test_a_folder_that_cannot_be_written_stops_nobody(rig, tmp_path, caplog):
     (tmp_path / "noise").write_text("a file in the way")
-    noise = NoiseOfSearch(rig, tmp_path / "noise", searches=100)
+    noise = NoiseOfSearch(lambda _: rig, tmp_path / "noise", searches=100)
     with caplog.at_level(logging.WARNING):
         assert known(noise, small_study()) is not None
     assert "cannot be kept" in caplog.text
@@ -61,7 +61,7 @@ def test_a_folder_that_cannot_be_written_stops_nobody(rig, tmp_path, caplog):
 
 
 def test_closing_does_not_wait_for_the_end(rig, tmp_path, caplog):
-    noise = NoiseOfSearch(rig, tmp_path / "noise", searches=10_000)
+    noise = NoiseOfSearch(lambda _: rig, tmp_path / "noise", searches=10_000)
     noise.of(small_study())
     with caplog.at_level(logging.ERROR):
         noise.close()

@@ -1,0 +1,117 @@
+"""What a face model is, and how its heads are called.
+
+A head of a face model that is not the bundled one is called MODEL:HEAD everywhere: in a study's identities, in the
+data, on pages. So a study's face model is the one that its heads are of, and whoever has the name of a head knows
+what to draw it with.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Protocol, TypeVar
+
+from emogen_core.face.rig_file import load_rig
+from emogen_core.rendering.look import load_look
+
+from ..errors import NotFoundError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+    from pathlib import Path
+
+    from emogen_core.face.rig import Rig
+
+T = TypeVar("T")
+
+MARK = ":"
+"""Between the name of a face model and that of one of its heads."""
+
+
+@dataclass(frozen=True, eq=False)
+class FaceModel:
+    """A face model that is not the bundled one.
+
+    Attributes:
+        name: what its heads are called by.
+        rig: wears its heads under their whole names, MODEL:HEAD.
+        look_hash: of its look.
+        files: of rig and look, for drawing processes; there the heads have their own names.
+    """
+
+    name: str
+    rig: Rig
+    look_hash: str
+    files: tuple[Path, Path]
+
+
+class Models(Protocol):
+    """What knows face models by the names of their heads: those of a server, or those whose files somebody names."""
+
+    def of(self, identity: str) -> FaceModel | None:
+        """Return the face model of a head; nothing for a head of the bundled one.
+
+        Raises:
+            NotFoundError: the head is of a face model that is not here.
+        """
+        ...
+
+    @property
+    def hashes(self) -> tuple[str, ...]:
+        """The hashes of their rigs."""
+        ...
+
+
+@dataclass(frozen=True)
+class FileModels:
+    """Face models of files, for commands that work without a database."""
+
+    models: Mapping[str, FaceModel] = field(default_factory=dict)
+
+    def of(self, identity: str) -> FaceModel | None:
+        """Return the face model of a head."""
+        name, mark, _ = identity.partition(MARK)
+        if mark and name not in self.models:
+            raise unknown_model(name)
+        return self.models[name] if mark else None
+
+    @property
+    def hashes(self) -> tuple[str, ...]:
+        """The hashes of their rigs."""
+        return tuple(model.rig.hash for model in self.models.values())
+
+
+def file_model(name: str, rig: Path) -> FaceModel:
+    """Return the face model of a rig file and of the look file beside it, as `emogen rig import` writes them.
+
+    Raises:
+        RigFileError, InvalidInputError: a file is missing or damaged, or they do not fit each other.
+    """
+    look = rig.with_suffix(".look")
+    model, worn = load_rig(rig), load_look(look)
+    worn.check(model)
+    return FaceModel(name, called(name, model), worn.hash, (rig, look))
+
+
+def name_of(heads: Iterable[str]) -> str:
+    """Return the name of the face model of some heads; empty for the bundled one."""
+    return next((head.partition(MARK)[0] for head in heads if MARK in head), "")
+
+
+def own_name(identity: str) -> str:
+    """Return what a head is called in the files of its model."""
+    return identity.rpartition(MARK)[2]
+
+
+def called(name: str, rig: Rig) -> Rig:
+    """Return a rig whose heads have their whole names, MODEL:HEAD."""
+
+    def whole(values: dict[str, T]) -> dict[str, T]:
+        return {f"{name}{MARK}{head}": value for head, value in values.items()}
+
+    return replace(rig, neutrals=whole(dict(rig.neutrals)), adjustments=whole(dict(rig.adjustments)))
+
+
+def unknown_model(name: str) -> NotFoundError:
+    """Return the error of a head whose face model is not here."""
+    told = f"The face model {name} is not here. Add it to the server, or name its rig file to the command with --rig."
+    return NotFoundError(told, field="identities", got=name)

@@ -1,0 +1,78 @@
+"""The page of face models: shows their heads, takes files, says what is wrong with them, and a study can have them."""
+
+import re
+
+import pytest
+
+from server.services.faces.models import MOST_BYTES
+from tests.conftest import PIXEL, small_study
+from tests.server.admin.test_account import csrf, owner, visitor  # noqa: F401
+from tests.server.services.faces.model_files import model_files
+
+PAGE = "/admin/models"
+
+
+@pytest.fixture
+def files(tmp_path):
+    return model_files(tmp_path)
+
+
+def send(client, rig, look, name="lab", **fields):
+    data = {"csrf": csrf(client.get(PAGE)), "name": name, **fields}
+    return client.post(PAGE, data=data, files={"rig": ("lab.rig", rig), "look": ("lab.look", look)})
+
+
+def test_a_model_is_added_shown_used_and_removed(owner, house, files):  # noqa: F811
+    assert "There are none yet" in owner.get(PAGE).text
+    assert send(owner, *files).headers["location"] == f"{PAGE}#lab"
+    page = owner.get(PAGE).text
+    pictures = re.findall(r'src="(/admin/heads/portraits/lab:[^"]+)"', page)
+    assert len(pictures) == 2 * 5
+    assert {owner.get(one.replace("&amp;", "&")).status_code for one in pictures} <= {200, 503}
+    study = house.studies.create(small_study(identities=("lab:female",)), status="draft")
+    design = owner.get(f"/admin/studies/{study.id}/design").text
+    assert re.search(r'value="lab:female" checked', design)
+    assert 'value="lab:male"' in design
+    refused = owner.post(f"{PAGE}/lab/remove", data={"csrf": csrf(owner.get(PAGE))})
+    assert refused.status_code == 409
+    assert "The study Small study has heads of lab" in refused.text
+    house.removal.delete(study.id, None, "owner", typed="Small study", erase=True)
+    assert owner.post(f"{PAGE}/lab/remove", data={"csrf": csrf(owner.get(PAGE))}).status_code == 303
+    assert "There are none yet" in owner.get(PAGE).text
+
+
+def test_what_is_wrong_is_told_beside_what_was_typed(owner, house, files):  # noqa: F811
+    rig, look = files
+    for given, name, told in (
+        ((b"", b""), "lab", "Choose the rig file."),
+        ((look, rig), "lab", "The rig cannot be used"),
+        ((rig, rig), "lab", "The look cannot be used"),
+        ((rig, look), "Not a name", "small letters, digits and single hyphens"),
+    ):
+        refused = send(owner, *given, name=name)
+        assert refused.status_code == 422
+        assert told in refused.text
+        assert f'value="{name}"' in refused.text
+    assert not house.models.all()
+
+
+def test_files_larger_than_allowed_are_refused(owner, house):  # noqa: F811
+    refused = send(owner, b"x" * (MOST_BYTES + 1), b"x")
+    assert refused.status_code == 422
+    assert f"at most {MOST_BYTES // 2**20} MiB" in refused.text
+    assert send(owner, b"x" * (2 * MOST_BYTES + 2**21), b"x").status_code == 413
+
+
+def test_strangers_and_forms_of_others(client, owner, files):  # noqa: F811
+    assert owner.post(PAGE, data={"csrf": "guess", "name": "lab"}).status_code == 403
+    owner.cookies.clear()
+    assert client.get(PAGE).headers["location"] == "/admin/login"
+    assert client.post(f"{PAGE}/lab/remove", data={"csrf": "x"}).headers["location"] == "/admin/login"
+
+
+def test_portraits_of_heads_that_are_none(owner, house, files):  # noqa: F811
+    house.models.add("lab", *files)
+    for name, status in (("lab:anna", 404), ("none:female", 404), ("lab:", 422)):
+        assert owner.get(f"/admin/heads/portraits/{name}.png").status_code == status
+    assert owner.get("/admin/heads/portraits/lab:female.png?emotion=bored").status_code == 422
+    assert owner.get("/admin/heads/portraits/female.png").content == PIXEL

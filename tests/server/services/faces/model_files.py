@@ -1,0 +1,14 @@
+"""Files of a small face model that is not the one of the house."""
+
+from emogen_core.face.rig_file import load_rig, save_rig
+from emogen_core.rendering.look import save_look
+from emogen_core.rendering.plain import plain_look
+from tests.rig_factory import small_rig
+
+
+def model_files(folder, seed=8, genes=7):
+    """Return the bytes of a rig file and of its look."""
+    rig, look = folder / f"lab{seed}.rig", folder / f"lab{seed}.look"
+    save_rig(small_rig(seed, genes), rig)
+    save_look(look, plain_look(load_rig(rig)))
+    return rig.read_bytes(), look.read_bytes()
