@@ -5,7 +5,7 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Any
 
-from sqlalchemy.orm import Mapped, deferred, mapped_column
+from sqlalchemy.orm import Mapped, mapped_column
 
 from .base import Base
 
@@ -25,5 +25,5 @@ class FaceModelRecord(Base):
     """Genes, shapes, vertices: what a page tells of it."""
     added_by: Mapped[str | None]
     added_at: Mapped[datetime]
-    rig: Mapped[bytes] = deferred(mapped_column())
-    look: Mapped[bytes] = deferred(mapped_column())
+    rig: Mapped[bytes] = mapped_column(deferred=True)
+    look: Mapped[bytes] = mapped_column(deferred=True)
