@@ -16,6 +16,7 @@ from emogen_core.rigs.quality import Gauge
 from emogen_core.rigs.random_heads import random_head
 from emogen_core.rigs.rest import BROW_HEIGHT, LOWER_COVER, UPPER_COVER
 from emogen_core.rigs.wear import fitter, nearest_preset, wear, worn_name
+from tests.emogen_core.rigs.alike import must_be_alike
 from tests.rig_factory import small_rig
 
 RIG, SPACE = load_bundled_rig(), load_bundled_space()
@@ -68,10 +69,10 @@ def test_a_head_is_symmetric_and_no_worse_folded_than_the_presets(worn):
 @pytest.mark.parametrize("name", ["male", "asian-female-old", "caucasian-male-young"])
 def test_a_presets_point_gives_the_preset(name):
     neutral, adjustment = fitter(RIG, SPACE).fit(IDENTITIES[name])
-    assert np.abs(neutral - RIG.neutral(name)).max() < 0.05
+    must_be_alike(neutral, RIG.neutral(name))
     stored = RIG.adjustments[name]
     assert adjustment.shapes.tolist() == stored.shapes.tolist()
-    assert np.abs(adjustment.offsets - stored.offsets).max() < 0.05
+    must_be_alike(adjustment.offsets, stored.offsets)
 
 
 def test_wearing_adds_one_head_and_leaves_the_rig_alone():
