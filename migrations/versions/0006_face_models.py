@@ -20,6 +20,7 @@ def upgrade() -> None:
         sa.Column("heads", sa.JSON(), nullable=False),
         sa.Column("emotions", sa.JSON(), nullable=False),
         sa.Column("counts", sa.JSON(), nullable=False),
+        sa.Column("findings", sa.JSON(), nullable=False),
         sa.Column("added_by", sa.String(), nullable=True),
         sa.Column("added_at", UtcTime(), nullable=False),
         sa.Column("rig", sa.LargeBinary(), nullable=False),

@@ -14,6 +14,7 @@ from starlette.datastructures import Headers, MutableHeaders
 from starlette.requests import Request
 
 from ..services.config.files import MOST_BYTES
+from ..services.faces.imports import MOST_BYTES as HEAD_BYTES
 from ..services.faces.models import MOST_BYTES as MODEL_BYTES
 from .errors import answer, error_body
 
@@ -53,6 +54,9 @@ LARGE_BYTES = 2 * MOST_BYTES + 2**20
 MODELS = re.compile(r"/admin/models")
 """Where the two files of a face model may arrive."""
 MODELS_BYTES = 2 * MODEL_BYTES + 2**20
+HEADS = re.compile(r"/admin/models/import")
+"""Where the file of a head to be imported may arrive."""
+HEADS_BYTES = HEAD_BYTES + 2**20
 TRANSPORT = "max-age=31536000; includeSubDomains"
 
 
@@ -62,7 +66,8 @@ class Guard:
     def __init__(self, app: ASGIApp, settings: Settings) -> None:
         self._app = app
         self._limit = settings.body_limit_bytes
-        self._larger = ((LARGE, max(self._limit, LARGE_BYTES)), (MODELS, max(self._limit, MODELS_BYTES)))
+        larger = ((LARGE, LARGE_BYTES), (MODELS, MODELS_BYTES), (HEADS, HEADS_BYTES))
+        self._larger = tuple((paths, max(self._limit, most)) for paths, most in larger)
         self._patience = settings.body_timeout_seconds
         self._headers = {**HEADERS, "Strict-Transport-Security": TRANSPORT} if settings.secure else HEADERS
 

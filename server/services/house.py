@@ -5,11 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from emogen_core.rigs.foreign.archive import unpacked
+
 from ..store import studies
 from ..store.engine import Database
 from ..store.migrate import upgrade
 from .config.way_back import host_list
 from .faces.heads import Heads
+from .faces.imports import HeadImporter, Imports
 from .faces.model_drawers import ModelDrawers
 from .faces.models import FaceModels
 from .faces.portrait_files import PortraitFiles
@@ -73,6 +76,7 @@ class House:
     recruiting: Recruiting
     heads: Heads
     models: FaceModels
+    imports: Imports
     editor: Editor
     making: Making
     accounts: Accounts
@@ -115,6 +119,7 @@ class House:
         """Stop drawing and close the database."""
         self.housekeeping.close()
         self.noise.close()
+        self.imports.close()
         self.analyst.stop()
         self.analyses.close()
         self.monitor.close()
@@ -147,6 +152,7 @@ def build_house(
     drawers = ModelDrawers(drawer, models, settings.renderer, drawer_of)
     portraits = Portraits(drawers, files, database, wardrobe, settings.portrait_memory_mb * 2**20)
     journal = Journal(database, rig, portraits, wardrobe, host_list(settings.redirect_hosts))
+    imports = Imports(models, HeadImporter(), unpacked)
     previews = Previews(journal)
     noise = NoiseOfSearch(wardrobe.rig_of, settings.data_dir / "noise")
     making, tokens = Studies(journal), Tokens(database)
@@ -167,6 +173,7 @@ def build_house(
         recruiting=Recruiting(database, settings.address),
         heads=heads,
         models=models,
+        imports=imports,
         editor=Editor(life, heads),
         making=Making(making, life),
         accounts=accounts,

@@ -23,6 +23,8 @@ class FaceModelRecord(Base):
     emotions: Mapped[list[Any]]
     counts: Mapped[dict[str, Any]]
     """Genes, shapes, vertices: what a page tells of it."""
+    findings: Mapped[dict[str, Any]]
+    """What its import found, guessed and missed; empty if it came as files."""
     added_by: Mapped[str | None]
     added_at: Mapped[datetime]
     rig: Mapped[bytes] = mapped_column(deferred=True)

@@ -8,7 +8,7 @@ from .desk import ACCOUNT
 from .stage import running
 from .test_accessibility import must_be_accessible
 
-PAGES = ("studies", "heads", "tokens", "team", "account", "server", "trail")
+PAGES = ("studies", "heads", "models", "tokens", "team", "account", "server", "trail")
 TABS = ("monitor", "recruit", "participants", "results", "data")
 
 

@@ -25,7 +25,7 @@ from ..people.accounts import audit
 from .face_model import MARK, FaceModel, called, unknown_model
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from emogen_core.face.rig import Rig
     from emogen_core.rendering.look import Look
@@ -57,8 +57,33 @@ class FaceModels:
         """The hashes of their rigs."""
         return tuple(row.rig_hash for row in self.all())
 
-    def add(self, name: str, rig: bytes, look: bytes, user: str | None = None) -> FaceModelRecord:
+    def check_name(self, name: str) -> None:
+        """Refuse a name that a new face model cannot have.
+
+        Raises:
+            InvalidError: it is none.
+            ConflictError: there is another one of this name.
+        """
+        _check_name(name)
+        with self.database.read() as tx:
+            _check_free(tx, name)
+
+    def add(
+        self,
+        name: str,
+        rig: bytes,
+        look: bytes,
+        user: str | None = None,
+        findings: Mapping[str, Sequence[str]] | None = None,
+    ) -> FaceModelRecord:
         """Keep a face model, once rig and look are known to be whole and to fit each other.
+
+        Args:
+            name: what its heads are called by.
+            rig: the rig file.
+            look: the look file.
+            user: who brings it.
+            findings: what an import found, guessed and missed, a sentence each.
 
         Raises:
             InvalidError: no name for a face model, or files that are none or do not fit.
@@ -71,7 +96,8 @@ class FaceModels:
             model, worn = _read(Path(place), rig, look)
         row = FaceModelRecord(
             name=name, rig_hash=model.hash, look_hash=worn.hash, heads=list(model.identities),
-            emotions=list(model.emotion_sets), counts=_counts(model), added_by=user, added_at=now(), rig=rig, look=look,
+            emotions=list(model.emotion_sets), counts=_counts(model), findings=dict(findings or {}), added_by=user,
+            added_at=now(), rig=rig, look=look,
         )  # fmt: skip
         with self.database.write() as tx:
             _check_new(tx, name, model.hash)
@@ -170,9 +196,13 @@ def _check_size(what: str, content: bytes) -> None:
         raise InvalidError(f"Choose the {what} file.", field=what, expected=wanted, got=f"{len(content)} bytes")
 
 
-def _check_new(tx: Tx, name: str, rig_hash: str) -> None:
+def _check_free(tx: Tx, name: str) -> None:
     if models.model(tx, name) is not None:
         raise ConflictError("There is a face model of this name. Choose another one.", field="name", got=name)
+
+
+def _check_new(tx: Tx, name: str, rig_hash: str) -> None:
+    _check_free(tx, name)
     same = models.with_rig(tx, rig_hash)
     if same is not None:
         raise ConflictError(f"This face model is here already: {same.name}.", field="rig", got=rig_hash)

@@ -8,6 +8,7 @@ from server.services.faces.models import MOST_BYTES
 from tests.conftest import PIXEL, small_study
 from tests.server.admin.test_account import csrf, owner, visitor  # noqa: F401
 from tests.server.services.faces.model_files import model_files
+from tests.server.services.faces.test_imports import FINDINGS, Fake
 
 PAGE = "/admin/models"
 
@@ -39,6 +40,40 @@ def test_a_model_is_added_shown_used_and_removed(owner, house, files):  # noqa: 
     house.removal.delete(study.id, None, "owner", typed="Small study", erase=True)
     assert owner.post(f"{PAGE}/lab/remove", data={"csrf": csrf(owner.get(PAGE))}).status_code == 303
     assert "There are none yet" in owner.get(PAGE).text
+
+
+def test_a_head_is_imported_behind_the_scenes(owner, house, tmp_path):  # noqa: F811
+    make = house.imports.make = Fake(tmp_path)
+    make.go.clear()
+    data = {"csrf": csrf(owner.get(PAGE)), "name": "lab", "wears": "male"}
+    sent = owner.post(f"{PAGE}/import", data=data, files={"file": ("head.glb", b"glTF")})
+    assert sent.headers["location"] == f"{PAGE}#import"
+    assert "data-running" in owner.get(PAGE).text
+    again = owner.post(f"{PAGE}/import", data={**data, "name": "other"}, files={"file": ("head.glb", b"glTF")})
+    assert again.status_code == 409
+    make.go.set()
+    house.imports.settle()
+    page = owner.get(PAGE).text
+    assert "<b>lab</b> is imported" in page
+    assert "data-running" not in page
+    for one in (one for kind in FINDINGS.values() for one in kind):
+        assert f"<li>{one}</li>" in page
+    assert make.given == [("lab.glb", b"glTF", "male")]
+
+
+def test_a_head_that_is_none_is_told(owner, house, tmp_path):  # noqa: F811
+    house.imports.make = Fake(tmp_path)
+    data = {"csrf": csrf(owner.get(PAGE)), "name": "lab", "wears": "male"}
+    refused = owner.post(f"{PAGE}/import", data=data, files={"file": ("head.fbx", b"x")})
+    assert refused.status_code == 422
+    assert "Expected: a .glb or .zip file" in refused.text
+    assert (
+        'id="import-name" name="name" required maxlength="40" pattern="[a-z0-9]+(-[a-z0-9]+)*" value="lab"'
+        in refused.text
+    )
+    refused = owner.post(f"{PAGE}/import", data={**data, "wears": "nobody"}, files={"file": ("head.glb", b"x")})
+    assert refused.status_code == 404
+    assert house.imports.last is None
 
 
 def test_what_is_wrong_is_told_beside_what_was_typed(owner, house, files):  # noqa: F811

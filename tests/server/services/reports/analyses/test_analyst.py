@@ -7,7 +7,8 @@ import time
 import pytest
 
 from server.services.errors import UnavailableError
-from server.services.reports.analyses.analyst import COMMAND, NICE, Analyst
+from server.services.own_process import NICE
+from server.services.reports.analyses.analyst import COMMAND, Analyst
 
 
 def running(program, **options):

@@ -1,0 +1,70 @@
+"""Another face model, through the browser: its files are added, its heads are seen, and a study shows its faces."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from emogen_core.face.bundled import load_bundled_rig
+from emogen_core.face.rig_file import save_rig
+from emogen_core.rendering.look import save_look
+from emogen_core.rendering.setup import bundled_look
+from tests.browser.desk import ACCOUNT
+from tests.browser.stage import running
+from tests.browser.test_accessibility import must_be_accessible
+
+pytestmark = pytest.mark.browser
+SECONDS = 60_000
+SEEN = "() => [...document.querySelectorAll('.sheet img')].every(image => image.complete && image.naturalWidth)"
+
+
+@pytest.fixture(scope="module")
+def lab(tmp_path_factory):
+    """The bundled rig with one head, so that its hash is another one."""
+    rig, path = load_bundled_rig(), tmp_path_factory.mktemp("lab") / "lab.rig"
+    worn = {name: change for name, change in rig.adjustments.items() if name == "male"}
+    save_rig(replace(rig, name="lab", neutrals={"male": rig.neutrals["male"]}, adjustments=worn), path)
+    save_look(path.with_suffix(".look"), bundled_look())
+    return path
+
+
+@pytest.fixture(scope="module")
+def desk(tmp_path_factory, browser):
+    with running(tmp_path_factory.mktemp("models"), {"small": {}}) as stage:
+        context = browser.new_context(viewport={"width": 1440, "height": 1400})
+        page, problems = context.new_page(), []
+        page.on("pageerror", lambda error: problems.append(str(error)))
+        page.set_default_timeout(SECONDS)
+        page.goto(stage.setup)
+        for label, value in ACCOUNT.items():
+            page.get_by_label(label).fill(value)
+        page.get_by_role("button", name="Create the account").click()
+        page.wait_for_url("**/admin/studies")
+        page.goto(f"{stage.address}/admin/models")
+        yield page, stage
+        context.close()
+        assert problems == []
+
+
+def test_files_are_added_and_heads_are_seen(desk, lab):
+    page, _ = desk
+    form = page.locator("form", has=page.locator("#add-rig"))
+    form.locator("#add-name").fill("lab")
+    form.locator("#add-rig").set_input_files(lab)
+    form.locator("#add-look").set_input_files(lab.with_suffix(".look"))
+    form.get_by_role("button", name="Add").click()
+    page.locator("h2", has_text="lab").wait_for()
+    page.wait_for_function(SEEN, timeout=SECONDS)
+    assert page.locator(".sheet img").count() == 7, "neutral and six emotions"
+    must_be_accessible(page)
+
+
+def test_a_head_is_chosen_for_a_study(desk):
+    page, stage = desk
+    page.goto(f"{stage.address}/admin/studies/{stage.one('SELECT id FROM studies')}/design")
+    before = page.locator("#portrait").get_attribute("src")
+    page.locator('input[name$=".preset"][value="lab:male"]').first.check(force=True)
+    page.wait_for_function("before => document.querySelector('#portrait').src !== before", arg=before)
+    page.locator("#status", has_text="drawn in").wait_for()
+    assert page.locator("#portrait").evaluate("image => image.naturalWidth") == 400
