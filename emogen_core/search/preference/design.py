@@ -22,27 +22,35 @@ DISLIKED = 0.4
 """Share of the candidates that is left out."""
 
 
-def picked(utilities: Floats, given: int, count: int) -> NDArray[np.intp]:
+def picked(utilities: Floats, given: int, count: int, alike: Floats, most_alike: float) -> NDArray[np.intp]:
     """Return the indices of the candidates to show beside those that are shown anyway.
 
     Args:
         utilities: (C, P) of candidates for draws, in units of the noise scale.
-        given: how many of the first candidates are shown anyway.
-        count: how many more.
+        given: how many of the first candidates are shown anyway; at least 1.
+        count: how many more; there must be as many.
+        alike: (P, P) how alike two candidates look.
+        most_alike: how alike a candidate may be to those taken before, on average. Where no liked one is, another is
+            taken, and where none is, the least alike.
     """
     mean = utilities.mean(axis=0)
     covariance = (utilities - mean).T @ (utilities - mean) / len(utilities)
-    open_ = mean >= np.quantile(mean[given:], DISLIKED)
-    open_[:given] = False
-    for index in range(given):
+    left_out = min(int(DISLIKED * (len(mean) - given)), len(mean) - given - count)
+    free = np.arange(len(mean)) >= given
+    liked = free & (mean >= np.sort(mean[given:])[left_out])
+    chosen = list(range(given))
+    for index in chosen:
         _explain(covariance, index)
-    chosen: list[int] = []
     for _ in range(count):
-        best = int(np.argmax(np.where(open_, np.diagonal(covariance), -np.inf)))
+        likeness = alike[chosen].mean(axis=0)
+        usable = liked & (likeness <= most_alike)
+        if not usable.any():
+            usable = free & (likeness <= max(most_alike, likeness[free].min()))
+        best = int(np.argmax(np.where(usable, np.diagonal(covariance), -np.inf)))
         chosen.append(best)
-        open_[best] = False
+        liked[best] = free[best] = False
         _explain(covariance, best)
-    return np.array(chosen, np.intp)
+    return np.array(chosen[given:], np.intp)
 
 
 def _explain(covariance: Floats, index: int) -> None:

@@ -6,18 +6,20 @@ Draws are kept between answers: a new answer first weights and resamples them, t
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from emogen_core.search.params import POPULATION
 from emogen_core.search.preference import prior
+from emogen_core.search.preference.chains import NUMBERS, ROUND, Evidence
 from emogen_core.search.preference.design import picked
 from emogen_core.search.preference.likelihood import arranged
 from emogen_core.search.preference.proposals import mean_face, means_of_many, pool, shaped
 from emogen_core.search.preference.sample import Sample
-from emogen_core.search.preference.sampler import NUMBERS, ROUND, Evidence, moved, resampled, weighed
-from emogen_core.search.preference.utility import utilities
+from emogen_core.search.preference.sampler import moved, resampled, weighed
+from emogen_core.search.preference.utility import COSINE, utilities
 from emogen_core.search.state import Choice
 
 if TYPE_CHECKING:
@@ -27,16 +29,15 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-CHAINS = 48
-FIRST = 480
+CHAINS = 64
+FIRST = 640
 """Draws from the prior that the first answer is weighed on."""
-FIRST_ROUNDS, ROUNDS = 8, 6
+FIRST_ROUNDS, ROUNDS = 8, 4
 """Rounds of moves after the first answer, and after every other."""
+VARIED, MOST_ALIKE = 5, 0.3
+"""Generation up to which the ten faces are kept as unlike as those of the paper's algorithm, and their mean cosine."""
 IN_MEAN = 12
 """Draws in each of the faces of the last generation."""
-
-Face = tuple["Floats", str]
-
 
 Told = Sequence[tuple["Floats", Choice]]
 """All answers of a search: (10, A) faces, and the choice."""
@@ -85,8 +86,16 @@ def _joined(samples: Sequence[Sample]) -> Sample:
     )
 
 
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """A generation, and the last one of its trial."""
+
+    generation: int
+    last: int
+
+
 def faces_of(
-    space: Space, sample: Sample, elite: Floats, generation: int, last: int, rng: np.random.Generator
+    space: Space, sample: Sample, elite: Floats, turn: Turn, rng: np.random.Generator
 ) -> tuple[Floats, tuple[str, ...]]:
     """Return the (10, A) faces of a generation and where they come from: the elite, the mean face, and eight more.
 
@@ -94,21 +103,24 @@ def faces_of(
         space: the genes.
         sample: the draws.
         elite: (A,) the face that was best.
-        generation: of the faces.
-        last: number of the last generation; its faces are all near to what is meant, to be chosen from.
+        turn: the generation; the faces of the last one are all near to what is meant, to be chosen from.
         rng: the stream of this generation.
     """
     mean = mean_face(space, sample)
-    if generation == last:
+    if turn.generation == turn.last:
         others = means_of_many(sample, POPULATION - 2, IN_MEAN, rng)
         faces, origins = np.concatenate([mean[None], others]), ("posterior-mean", *["draws-mean"] * len(others))
-        return np.concatenate([elite[None], shaped(sample, faces, generation)]), ("elite", *origins)
+        return np.concatenate([elite[None], shaped(sample, faces, turn.generation)]), ("elite", *origins)
     candidates, named = pool(sample, elite, rng)
-    made = shaped(sample, np.concatenate([mean[None], candidates]), generation)
+    made = shaped(sample, np.concatenate([mean[None], candidates]), turn.generation)
     _, first = np.unique(np.concatenate([elite[None], made]), axis=0, return_index=True)
-    unlike = np.union1d(np.sort(first), [0, 1])
+    unlike = np.union1d(first, [0, 1])
+    if len(unlike) < 2 * POPULATION:  # of very few genes, all faces are soon the same
+        unlike = np.arange(1 + len(made))
     faces, origins = np.concatenate([elite[None], made]), ("elite", "posterior-mean", *named)
     judged = utilities(space, faces[unlike], sample.genes, sample.metric)
-    chosen = picked(judged / np.exp(np.median(sample.log_tau)), 2, POPULATION - 2)
+    composition = utilities(space, faces[unlike], faces[unlike], np.full(len(unlike), COSINE))
+    most_alike = MOST_ALIKE if turn.generation <= VARIED else 1.0
+    chosen = picked(judged / np.exp(np.median(sample.log_tau)), 2, POPULATION - 2, composition, most_alike)
     slots = unlike[np.concatenate([[0, 1], chosen])]
     return faces[slots], tuple(origins[slot] for slot in slots)

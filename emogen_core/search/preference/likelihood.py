@@ -1,13 +1,13 @@
-"""How likely an answer is: the choice model of Plackett and Luce, with the order of the other selected faces summed out.
+"""How likely an answer is: the choice model of Plackett and Luce, the order of the other selected faces summed out.
 
-With ``w_j = exp(u_j / tau)`` for the utilities of the ten faces, the elite ``e`` is named first, and then the others of
-the selection ``S`` before any face of the rest:
+With ``w_j = exp(u_j / tau)`` for the utilities of the ten faces, the elite ``e`` is named first, and then the others
+of the selection ``S`` before any face of the rest:
 
     P(elite) = (1 - eps) w_e / sum_j w_j + eps / 10
     P(S before the rest) = (1 - eps) sum_{A subset of S} (-1)^|A| L / (L + w_A) + eps / C(9, |S|)
 
-where L is the sum of w over the rest. The second is the chance that in a race of exponential times with rates w the last
-of S comes before the first of the rest (inclusion and exclusion over its 2^|S| subsets), so no order of clicks is
+where L is the sum of w over the rest. The second is the chance that in a race of exponential times with rates w the
+last of S comes before the first of the rest (inclusion and exclusion over its 2^|S| subsets), so no order of clicks is
 assumed. ``eps`` is the chance of a lapse. R. D. Luce: Individual Choice Behavior. Wiley, 1959. R. L. Plackett: The
 analysis of permutations. Applied Statistics 24 (2), 1975, 193-202. doi:10.2307/2346567
 
@@ -40,6 +40,8 @@ MOST_SUMMED = 5
 """Others selected up to which the subsets are summed; beyond it, the race is integrated numerically."""
 FILLER = 300.0
 """Powers of two that a face which fills a place is above, or below, all others."""
+FASTEST = 2.0**25
+"""Rate, in those of the rest, beyond which a face is certain to come first."""
 FIRST_TIME, TIMES = 2.0**-11, 16
 """Of the race, in units of the mean wait for the rest; each twice the one before. Good to 2e-4 of a probability."""
 
@@ -81,7 +83,7 @@ def _ranks(choice: Choice, begin: int) -> tuple[int, list[int], list[int]]:
 
 
 def _block(ranks: Sequence[tuple[int, list[int], list[int]]], none: int) -> Block:
-    others, rest = (max(len(one[i]) for one in ranks) for i in (1, 2))
+    others, rest = max(len(named) for _, named, _ in ranks), max(len(left) for _, _, left in ranks)
     rows = np.full((1 + others + rest, len(ranks)), none)
     lift = np.zeros(rows.shape, np.float32)
     lift[1 : 1 + others], lift[1 + others :] = FILLER, -FILLER
@@ -94,7 +96,12 @@ def _block(ranks: Sequence[tuple[int, list[int], list[int]]], none: int) -> Bloc
 
 
 def likelihood(blocks: Sequence[Block], weights: Singles) -> NDArray[np.float64]:
-    """Return the (C,) probabilities of all answers together, from the (F, C) weights of faces as the blocks rank them."""
+    """Return the (C,) probabilities of all answers together.
+
+    Args:
+        blocks: how the faces stand.
+        weights: (F, C) weights w of the faces, as the blocks rank them.
+    """
     together, begin = np.ones(weights.shape[1]), 0
     for block in blocks:
         end = begin + len(block.rows)
@@ -108,10 +115,10 @@ def answers(block: Block, race: Singles) -> Singles:
     """Return the (g, C) probabilities of answers from the (1 + s + r, g, C) weights of their faces by rank."""
     count = len(block.real)
     others = race[1 : 1 + count]
-    rest = np.add.reduce(race[1 + count :], axis=0)
+    rest: Singles = np.add.reduce(race[1 + count :], axis=0)
     total = race[0] + rest
     total += np.add.reduce(others * block.real, axis=0)
-    first = race[0] / total
+    first: Singles = race[0] / total
     first *= 1 - LAPSE
     first += LAPSE / POPULATION
     before = _summed(others, rest) if count <= MOST_SUMMED else _integrated(others, rest)
@@ -124,7 +131,7 @@ def answers(block: Block, race: Singles) -> Singles:
 
 def _summed(others: Singles, rest: Singles) -> Singles:
     """Return the (g, C) chances that all of (s, g, C) come before the rest, by inclusion and exclusion."""
-    sums = np.empty((2 ** len(others), *rest.shape), rest.dtype)
+    sums: Singles = np.empty((2 ** len(others), *rest.shape), rest.dtype)
     sums[0] = rest
     for i, weight in enumerate(others):
         np.add(sums[: 2**i], weight, out=sums[2**i : 2 ** (i + 1)])
@@ -133,7 +140,8 @@ def _summed(others: Singles, rest: Singles) -> Singles:
     while half:  # subsets with a face count as those without it, less: signs by folding
         sums[:half] -= sums[half : 2 * half]
         half //= 2
-    return sums[0]
+    chance: Singles = sums[0]
+    return chance
 
 
 def _integrated(others: Singles, rest: Singles) -> Singles:
@@ -141,10 +149,10 @@ def _integrated(others: Singles, rest: Singles) -> Singles:
 
     Times double, so what is left of a face, ``exp(-rate time)``, is squared from one to the next.
     """
-    left = np.exp(-np.minimum(others / rest, 2.0**30) * np.float32(FIRST_TIME))
-    chance, time = np.zeros_like(rest), FIRST_TIME
+    left = np.exp(-FIRST_TIME * (np.minimum(others, rest * FASTEST) / rest).astype(np.float64))
+    chance, time = np.zeros(rest.shape), FIRST_TIME
     for _ in range(TIMES):
-        chance += np.multiply.reduce(1 - left, axis=0) * np.float32(time * np.exp(-time) * np.log(2))
+        chance += np.multiply.reduce(1 - left, axis=0) * (time * np.exp(-time) * np.log(2))
         left *= left
         time *= 2
-    return chance
+    return chance.astype(np.float32)

@@ -1,7 +1,8 @@
 """What is believed before the first answer: some genes are at work, evenly strong; nothing of emotions.
 
-How many of the A genes are on is beta-binomial(1, 3): any number may be, few are likelier. A gene that is on is
-U(0, 1). The noise scale tau of an answer is log-uniform, and either metric is as likely as the other.
+How many of the A genes are on is beta-binomial(1, 3): any number may be, few are likelier; but not none, since
+somebody who chooses has something in mind. A gene that is on is U(0, 1). The noise scale tau of an answer is
+log-uniform, and either metric is as likely as the other.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ def birth_odds(genes: int) -> Floats:
 
 
 def drawn(uniform: Floats) -> Sample:
-    """Return targets drawn from the prior.
+    """Return targets drawn from the prior, some of them empty.
 
     Args:
         uniform: (C, 3 + 2 A) numbers in [0, 1), independent.

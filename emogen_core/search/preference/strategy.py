@@ -16,7 +16,7 @@ import numpy as np
 from emogen_core.errors import InvalidInputError, expected
 from emogen_core.search.initial import initial_population
 from emogen_core.search.params import POPULATION
-from emogen_core.search.preference.learning import faces_of, learn
+from emogen_core.search.preference.learning import Turn, faces_of, learn
 from emogen_core.search.preference.proposals import mean_face as mean_of
 from emogen_core.search.preference.sample import from_rows
 from emogen_core.search.preference.utility import space_of
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from emogen_core.search.params import Genome, SearchParams
+    from emogen_core.search.params import SearchParams
     from emogen_core.search.preference.utility import Space
     from emogen_core.search.state import Answer, Choice
 
@@ -52,7 +52,7 @@ def ask(params: SearchParams, state: State) -> Population:
     elite = np.array(state.previous[state.choice.elite - 1])[list(params.active)]
     rng = stream(state.seed, state.attempt, state.generation, PROPOSALS)
     sample = from_rows(state.sample)
-    faces, origins = faces_of(_space(params), sample, elite, state.generation, params.generations, rng)
+    faces, origins = faces_of(_space(params), sample, elite, Turn(state.generation, params.generations), rng)
     parents = tuple((state.choice.elite,) if origin in {"elite", "elite-draw"} else () for origin in origins)
     return Population(_whole(params, faces), origins, parents)
 
@@ -80,15 +80,14 @@ def mean_face(params: SearchParams, state: State) -> Floats:
     """
     if not state.sample:
         raise InvalidInputError(f"state: {expected('a search with an answer', 'one without')}")
-    return _whole(params, mean_of(_space(params), from_rows(state.sample))[None])[0]
+    (face,) = _whole(params, mean_of(_space(params), from_rows(state.sample))[None])
+    return np.asarray(face)
 
 
 @lru_cache(maxsize=REMEMBERED)
 def _told(params: SearchParams, state: State, choice: Choice) -> State:
     genomes = tuple(tuple(genome) for genome in ask(params, state).genes.tolist())
-    told = State(
-        NAME, state.seed, state.attempt, state.generation + 1, genomes, choice, earlier=state.answers
-    )
+    told = State(NAME, state.seed, state.attempt, state.generation + 1, genomes, choice, earlier=state.answers)
     before = [from_rows(state.sample)] if state.sample else None
     rng = stream(state.seed, state.attempt, told.generation, BELIEFS)
     (sample,) = learn(_space(params), [_faces(params, told.answers)], before, [rng])

@@ -45,7 +45,7 @@ class Space:
     @property
     def genes(self) -> int:
         """A."""
-        return self.products.shape[-1]
+        return int(self.products.shape[-1])
 
     @property
     def multiplicities(self) -> Floats:
@@ -74,7 +74,7 @@ class Shown:
     """Faces that targets are compared with, prepared: `F` faces of each of `R` searches.
 
     Attributes:
-        features: (F, 2, R, A) what one unit of a gene adds to the product of a face with a target, by metric and search.
+        features: (F, 2, R, A) what a unit of a gene adds to the product of face and target, by metric and search.
         squares: (F, R) squared vertex norms.
     """
 
