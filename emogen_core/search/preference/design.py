@@ -30,8 +30,8 @@ def picked(utilities: Floats, given: int, count: int, alike: Floats, most_alike:
         given: how many of the first candidates are shown anyway; at least 1.
         count: how many more; there must be as many.
         alike: (P, P) how alike two candidates look.
-        most_alike: how alike a candidate may be to those taken before, on average. Where no liked one is, another is
-            taken, and where none is, the least alike.
+        most_alike: how alike faces may be, the mean of all pairs of those taken. Where every liked candidate would
+            make it more, another is taken, and where all would, the least alike.
     """
     mean = utilities.mean(axis=0)
     covariance = (utilities - mean).T @ (utilities - mean) / len(utilities)
@@ -41,13 +41,16 @@ def picked(utilities: Floats, given: int, count: int, alike: Floats, most_alike:
     chosen = list(range(given))
     for index in chosen:
         _explain(covariance, index)
+    total = np.triu(alike[:given, :given], 1).sum()
     for _ in range(count):
-        likeness = alike[chosen].mean(axis=0)
-        usable = liked & (likeness <= most_alike)
+        likeness = total + alike[chosen].sum(axis=0)
+        limit = most_alike * len(chosen) * (len(chosen) + 1) / 2
+        usable = liked & (likeness <= limit)
         if not usable.any():
-            usable = free & (likeness <= max(most_alike, likeness[free].min()))
+            usable = free & (likeness <= max(limit, likeness[free].min()))
         best = int(np.argmax(np.where(usable, np.diagonal(covariance), -np.inf)))
         chosen.append(best)
+        total = likeness[best]
         liked[best] = free[best] = False
         _explain(covariance, best)
     return np.array(chosen[given:], np.intp)

@@ -30,12 +30,12 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 CHAINS = 64
-FIRST = 640
+FIRST = 2000
 """Draws from the prior that the first answer is weighed on."""
-FIRST_ROUNDS, ROUNDS = 8, 4
+FIRST_ROUNDS, ROUNDS = 4, 4
 """Rounds of moves after the first answer, and after every other."""
-VARIED, MOST_ALIKE = 5, 0.3
-"""Generation up to which the ten faces are kept as unlike as those of the paper's algorithm, and their mean cosine."""
+MOST_ALIKE = (1.0, 0.28, 0.29, 0.31, 0.34, 0.37)
+"""Mean cosine of any two of ten faces by generation, as of the paper's algorithm; later faces may be more alike."""
 IN_MEAN = 12
 """Draws in each of the faces of the last generation."""
 
@@ -97,7 +97,7 @@ class Turn:
 def faces_of(
     space: Space, sample: Sample, elite: Floats, turn: Turn, rng: np.random.Generator
 ) -> tuple[Floats, tuple[str, ...]]:
-    """Return the (10, A) faces of a generation and where they come from: the elite, the mean face, and eight more.
+    """Return the (10, A) faces of a generation and where they come from, the elite first.
 
     Args:
         space: the genes.
@@ -106,21 +106,35 @@ def faces_of(
         turn: the generation; the faces of the last one are all near to what is meant, to be chosen from.
         rng: the stream of this generation.
     """
-    mean = mean_face(space, sample)
     if turn.generation == turn.last:
-        others = means_of_many(sample, POPULATION - 2, IN_MEAN, rng)
-        faces, origins = np.concatenate([mean[None], others]), ("posterior-mean", *["draws-mean"] * len(others))
-        return np.concatenate([elite[None], shaped(sample, faces, turn.generation)]), ("elite", *origins)
-    candidates, named = pool(sample, elite, rng)
-    made = shaped(sample, np.concatenate([mean[None], candidates]), turn.generation)
-    _, first = np.unique(np.concatenate([elite[None], made]), axis=0, return_index=True)
-    unlike = np.union1d(first, [0, 1])
-    if len(unlike) < 2 * POPULATION:  # of very few genes, all faces are soon the same
-        unlike = np.arange(1 + len(made))
+        made, named = _nearest(space, sample, rng)
+    else:
+        made, named = pool(sample, elite, rng)
+    made = shaped(sample, np.concatenate([mean_face(space, sample)[None], made]), turn.generation)
     faces, origins = np.concatenate([elite[None], made]), ("elite", "posterior-mean", *named)
-    judged = utilities(space, faces[unlike], sample.genes, sample.metric)
-    composition = utilities(space, faces[unlike], faces[unlike], np.full(len(unlike), COSINE))
-    most_alike = MOST_ALIKE if turn.generation <= VARIED else 1.0
-    chosen = picked(judged / np.exp(np.median(sample.log_tau)), 2, POPULATION - 2, composition, most_alike)
-    slots = unlike[np.concatenate([[0, 1], chosen])]
+    slots = np.arange(POPULATION) if turn.generation == turn.last else _asked(space, sample, faces, turn.generation)
     return faces[slots], tuple(origins[slot] for slot in slots)
+
+
+def _nearest(space: Space, sample: Sample, rng: np.random.Generator) -> tuple[Floats, tuple[str, ...]]:
+    """Return eight faces as near to what is meant as is known, but not the same."""
+    return means_of_many(space, sample, POPULATION - 2, IN_MEAN, rng), ("draws-mean",) * (POPULATION - 2)
+
+
+def _asked(space: Space, sample: Sample, faces: Floats, generation: int) -> NDArray[np.intp]:
+    """Return the indices of ten faces, the elite first; while they are to be unlike, the mean face has no own slot."""
+    varied = generation < len(MOST_ALIKE)
+    given = 1 if varied else 2
+    different = _different(faces)
+    shown = faces[different]
+    judged = utilities(space, shown, sample.genes, sample.metric) / np.exp(np.median(sample.log_tau))
+    alike = utilities(space, shown, shown, np.full(len(shown), COSINE))
+    chosen = picked(judged, given, POPULATION - given, alike, MOST_ALIKE[generation] if varied else 1.0)
+    return different[np.concatenate([np.arange(given), chosen])]
+
+
+def _different(faces: Floats) -> NDArray[np.intp]:
+    """Return the indices of different faces, the first two among them; of all, where there are hardly any."""
+    _, first = np.unique(faces, axis=0, return_index=True)
+    different: NDArray[np.intp] = np.union1d(first, [0, 1])
+    return different if len(different) >= 2 * POPULATION else np.arange(len(faces))

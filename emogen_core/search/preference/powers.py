@@ -23,7 +23,8 @@ MANTISSA = 23
 
 def power_of_two(x: NDArray[np.float32]) -> NDArray[np.float32]:
     """Return 2^x elementwise; x is used up."""
-    np.clip(x, -LIMIT, LIMIT, out=x)
+    np.maximum(x, -LIMIT, out=x)
+    np.minimum(x, LIMIT, out=x)
     whole = np.rint(x)
     x -= whole
     power = TERMS[3] * x

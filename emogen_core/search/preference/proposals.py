@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-PAIRS, TRIPLES, CROSSED, PARTS, SPARSE = 24, 12, 16, 16, 12
+PAIRS, TRIPLES, CROSSED, PARTS, SPARSE = 24, 12, 16, 48, 24
 """How many means of two draws and of three, mixtures of elite and draw, parts of a draw, and random faces."""
 MOST_IN_PART, MOST_SPARSE = 6, 7
 GRID = 2.0**24
@@ -39,18 +39,12 @@ def on_grid(genes: Floats) -> Floats:
 
 
 def mean_face(space: Space, sample: Sample) -> Floats:
-    """Return the (A,) face that on average is nearest to all draws, under the metric that most of them have.
+    """Return the (A,) face that on average is nearest to all draws: their mean direction, at their median norm.
 
-    By composition it is the mean direction, at the median norm; by vertices, the mean, a draw weighted as its distances
-    are: by the inverse of its square.
+    Directions and norms are those of the metric that most draws have.
     """
-    leading = np.full(len(sample.metric), COSINE if composition_leads(sample) else VERTEX)
-    squares = np.maximum(space.squares(leading, sample.genes), LEAST_SQUARE)[:, None]
-    if leading[0] == VERTEX:
-        return on_grid((sample.genes / squares).sum(axis=0) / (1 / squares).sum())
-    direction = (sample.genes / np.sqrt(squares)).sum(axis=0)
-    length = np.sqrt(max(space.squares(leading[:1], direction[None])[0], LEAST_SQUARE))
-    return on_grid(direction * (np.sqrt(np.median(squares)) / length))
+    (face,) = _means(space, sample, np.arange(len(sample.metric))[None])
+    return np.asarray(face)
 
 
 def composition_leads(sample: Sample) -> bool:
@@ -63,7 +57,7 @@ def pool(sample: Sample, elite: Floats, rng: np.random.Generator) -> tuple[Float
     draws = sample.genes
     kinds = {
         "draw": draws,
-        "draws-mean": np.concatenate([_means(draws, 2, PAIRS, rng), _means(draws, 3, TRIPLES, rng)]),
+        "draws-mean": np.concatenate([_averages(draws, 2, PAIRS, rng), _averages(draws, 3, TRIPLES, rng)]),
         "elite-draw": np.where(rng.random((CROSSED, len(elite))) < 0.5, elite, _some(draws, CROSSED, rng)),
         "part": _parts(_some(draws, PARTS, rng), rng),
         "random": _sparse(len(elite), rng),
@@ -85,16 +79,26 @@ def shaped(sample: Sample, genes: Floats, generation: int) -> Floats:
     return on_grid(shown)
 
 
-def means_of_many(sample: Sample, count: int, draws: int, rng: np.random.Generator) -> Floats:
-    """Return (count, A) means of some draws each."""
-    return _means(sample.genes, min(draws, len(sample.genes)), count, rng)
+def means_of_many(space: Space, sample: Sample, count: int, draws: int, rng: np.random.Generator) -> Floats:
+    """Return (count, A) mean faces of some of the draws each."""
+    order = np.argsort(rng.random((count, len(sample.metric))), axis=1, kind="stable")
+    return _means(space, sample, order[:, :draws])
+
+
+def _means(space: Space, sample: Sample, which: NDArray[np.intp]) -> Floats:
+    """Return the (B, A) mean directions of (B, n) draws, at the median norm of all."""
+    leading = COSINE if composition_leads(sample) else VERTEX
+    norms = np.sqrt(np.maximum(space.squares(np.full(len(sample.metric), leading), sample.genes), LEAST_SQUARE))
+    directions = (sample.genes / norms[:, None])[which].sum(axis=1)
+    lengths = np.sqrt(np.maximum(space.squares(np.full(len(which), leading), directions), LEAST_SQUARE))
+    return on_grid(directions * (np.median(norms) / lengths)[:, None])
 
 
 def _some(draws: Floats, count: int, rng: np.random.Generator) -> Floats:
     return draws[(rng.random(count) * len(draws)).astype(np.intp)]
 
 
-def _means(draws: Floats, of: int, count: int, rng: np.random.Generator) -> Floats:
+def _averages(draws: Floats, of: int, count: int, rng: np.random.Generator) -> Floats:
     order = np.argsort(rng.random((count, len(draws))), axis=1, kind="stable")[:, :of]
     return on_grid(draws[order].sum(axis=1) / of)
 

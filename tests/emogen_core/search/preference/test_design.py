@@ -44,7 +44,7 @@ def test_candidates_too_like_those_before_wait_unless_all_are() -> None:
     utilities = np.random.default_rng(4).normal(size=(300, 9)) * [1, 5, 4, 3, 2, 1, 1, 1, 1] - 99 * (np.arange(9) > 4)
     alike = np.eye(9)
     alike[1, 2] = alike[2, 1] = 0.9
-    assert picked(utilities, 1, 3, alike, 0.2).tolist() == [1, 3, 4]
+    assert picked(utilities, 1, 3, alike, 0.1).tolist() == [1, 3, 4]
     assert picked(utilities, 1, 3, alike, 0.9).tolist() == [1, 2, 3]
     alike[0] = alike[:, 0] = [1, 0.8, 0.7, 0.6, 0.5, 0.2, 1, 1, 1]
     assert picked(utilities, 1, 1, alike, 0.3).tolist() == [5], "rather a disliked one than one more of the same"

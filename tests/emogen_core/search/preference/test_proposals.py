@@ -20,11 +20,12 @@ from emogen_core.search.preference.proposals import (
     SPARSE,
     TRIPLES,
     mean_face,
+    means_of_many,
     pool,
     shaped,
 )
 from emogen_core.search.preference.sample import Sample, from_rows
-from emogen_core.search.preference.utility import COSINE, VERTEX, utilities
+from emogen_core.search.preference.utility import COSINE, VERTEX
 from tests.emogen_core.search.preference.beliefs import GENES, draws, space
 
 
@@ -56,14 +57,17 @@ def test_mixtures_take_every_gene_from_the_elite_or_from_one_draw() -> None:
 
 
 @pytest.mark.parametrize("metric", [COSINE, VERTEX])
-def test_no_draw_or_other_mean_is_liked_better_than_the_mean_face(metric: int) -> None:
+def test_the_mean_face_has_the_direction_nearest_to_all_draws_and_their_median_norm(metric: int) -> None:
     sample = judged_by(draws(48), metric)
     sample.genes[:, 1] = 0.7
-    mean = mean_face(space(), sample)
-    others = np.concatenate([mean[None], sample.genes, sample.genes.mean(axis=0)[None], mean[None] * 0.8 + 0.05])
-    liked = utilities(space(), others, sample.genes, sample.metric)
-    score = liked.mean(axis=0) if metric == COSINE else -(liked**2).mean(axis=0)
-    assert score.argmax() == 0
+    mean, rng = mean_face(space(), sample), np.random.default_rng(1)
+    form = space().products[metric]
+    norms = np.sqrt(np.einsum("ca,ab,cb->c", sample.genes, form, sample.genes))
+    assert np.sqrt(mean @ form @ mean) == pytest.approx(np.median(norms), rel=1e-6)
+    others = np.concatenate([mean[None], sample.genes, np.clip(mean + rng.normal(0, 0.02, (200, GENES)), 0, 1)])
+    lengths = np.sqrt(np.einsum("fa,ab,fb->f", others, form, others))
+    alike = (others @ form @ (sample.genes / norms[:, None]).T).mean(axis=1) / lengths
+    assert alike.argmax() == 0
 
 
 def test_the_mean_face_of_equal_draws_is_that_draw() -> None:
@@ -71,6 +75,19 @@ def test_the_mean_face_of_equal_draws_is_that_draw() -> None:
     for metric in (COSINE, VERTEX):
         sample = judged_by(Sample(np.tile(one, (5, 1)), np.zeros(5), np.zeros(5, np.intp)), metric)
         np.testing.assert_allclose(mean_face(space(), sample), one, atol=2 / GRID)
+        many = means_of_many(space(), sample, 3, 2, np.random.default_rng(0))
+        np.testing.assert_allclose(many, np.tile(one, (3, 1)), atol=2 / GRID)
+
+
+def test_faces_of_many_draws_come_nearer_to_the_mean_face() -> None:
+    sample = judged_by(draws(48), COSINE)
+    mean = mean_face(space(), sample)
+    apart = [
+        np.linalg.norm(means_of_many(space(), sample, 20, n, np.random.default_rng(0)) - mean, axis=1).mean()
+        for n in (2, 12, 48)
+    ]
+    assert apart[0] > 2 * apart[1] > 4 * apart[2]
+    assert apart[2] < 1e-6
 
 
 @given(st.integers(0, 2**32), st.integers(1, 10), st.sampled_from([COSINE, VERTEX]))
