@@ -130,7 +130,7 @@ def _asked(space: Space, sample: Sample, faces: Floats, generation: int) -> NDAr
     judged = utilities(space, shown, sample.genes, sample.metric) / np.exp(np.median(sample.log_tau))
     alike = utilities(space, shown, shown, np.full(len(shown), COSINE))
     chosen = picked(judged, given, POPULATION - given, alike, MOST_ALIKE[generation] if varied else 1.0)
-    return different[np.concatenate([np.arange(given), chosen])]
+    return np.asarray(different[np.concatenate([np.arange(given), chosen])])
 
 
 def _different(faces: Floats) -> NDArray[np.intp]:
