@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import threading
 import time
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import CancelledError, Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-from emogen_core.errors import RenderingError
+from emogen_core.errors import EmogenError, RenderingError
 from emogen_core.rendering.keys import portrait_key
 
 from .face_model import own_name
@@ -42,7 +42,7 @@ class _Running:
 
     @property
     def failed(self) -> bool:
-        return self.drawer.done() and (self.drawer.cancelled() or self.drawer.exception() is not None)
+        return self.drawer.done() and _failure(self.drawer) is not None
 
 
 class ModelDrawers:
@@ -107,17 +107,26 @@ def _then(drawer: Future[PortraitDrawer], draw: Callable[[PortraitDrawer], Futur
     promise: Future[bytes] = Future()
 
     def started(made: Future[PortraitDrawer]) -> None:
-        if promise.set_running_or_notify_cancel():
-            try:
-                draw(made.result()).add_done_callback(finished)
-            except BaseException as error:  # whoever waits is told, whatever it was
-                promise.set_exception(error)
+        if not promise.set_running_or_notify_cancel():
+            return
+        if error := _failure(made):
+            promise.set_exception(error)
+            return
+        try:
+            draw(made.result()).add_done_callback(finished)
+        except EmogenError as refused:
+            promise.set_exception(refused)
 
     def finished(picture: Future[bytes]) -> None:
-        try:
-            promise.set_result(picture.result())
-        except BaseException as error:  # the same
+        if error := _failure(picture):
             promise.set_exception(error)
+        else:
+            promise.set_result(picture.result())
 
     drawer.add_done_callback(started)
     return promise
+
+
+def _failure(done: Future[Any]) -> BaseException | None:
+    """Return why something that is over has no result."""
+    return CancelledError() if done.cancelled() else done.exception()
