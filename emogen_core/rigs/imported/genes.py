@@ -70,21 +70,30 @@ def make_genes(head: ReadHead) -> GeneShapes:
         InvalidInputError: two expressions mean the same, or none is left.
     """
     model, findings = head.model, head.findings
-    left_out = {name for name in model.expressions if _is_corrective(name)}
-    if left_out:
-        told = counted(sorted(left_out))
-        findings.found.append(f"{len(left_out)} correctives were left out, for they are derived anew: {told}.")
-    taken = left_out | set(head.pairs.correctives)
+    taken = _correctives(model, findings) | set(head.pairs.correctives)
     made = [*_gazes(model, head.pairs, taken), *_sides(model, head.pairs, taken), *_single(model, taken, findings)]
     made.sort(key=lambda one: (_ORDER.get(one.gene.name, len(_ORDER)), one.gene.name))
     _check_unique([one.gene.name for one in made])
     shapes = {name: offsets for one in made for name, offsets in one.shapes.items()}
     correctives = {name: model.expressions[name] for name in head.pairs.correctives}
     findings.found.append(f"{len(made)} genes of {len(shapes)} shapes.")
-    absent = [name for name, recipe in _RECIPES.items() if not recipe.flags and name not in {m.gene.name for m in made}]
+    _tell_absent({one.gene.name for one in made}, findings)
+    return GeneShapes(tuple(one.gene for one in made), shapes, correctives)
+
+
+def _correctives(model: HeadModel, findings: Findings) -> set[str]:
+    """Return the expressions that are correctives of others, which are derived anew."""
+    left_out = {name for name in model.expressions if _is_corrective(name)}
+    if left_out:
+        told = counted(sorted(left_out))
+        findings.found.append(f"{len(left_out)} correctives were left out, for they are derived anew: {told}.")
+    return left_out
+
+
+def _tell_absent(made: set[str], findings: Findings) -> None:
+    absent = [name for name, recipe in _RECIPES.items() if not recipe.flags and name not in made]
     if absent:
         findings.missing.append(f"{len(absent)} genes that the bundled head has: {counted(absent)}.")
-    return GeneShapes(tuple(one.gene for one in made), shapes, correctives)
 
 
 def gene_offsets(genes: Iterable[Gene], shapes: Mapping[str, NDArray[np.floating]]) -> dict[str, NDArray[np.float64]]:
