@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -52,9 +53,7 @@ def import_(  # noqa: PLR0913, PLR0917 - typer reads the options from the signat
         _check_free((out, look), force)
         making = import_module("emogen_core.rigs.imported.assemble")
         wishes = making.Wishes(name, unit, neutral, wears, _heads(head or ()), random, seed, combinations)
-        if combinations:
-            typer.echo("Correctives are derived, which takes some minutes.", err=True)
-        made: Imported = making.import_head(source, wishes)
+        made: Imported = making.import_head(source, wishes, partial(typer.echo, err=True))
         rig, dressed = _stored(made, out, look)
     report = {**_facts(rig, out), "look": str(look), "look_hash": dressed, **made.findings.to_document()}
     typer.echo(json.dumps(report, indent=2) if json_ else _told(report))

@@ -32,7 +32,7 @@ from emogen_core.rigs.imported.parts import FLESH, Parts, pieces, sort_parts
 from emogen_core.rigs.rest import BROWS
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
     from pathlib import Path
 
     from numpy.typing import NDArray
@@ -83,12 +83,13 @@ class Imported:
     findings: Findings
 
 
-def import_head(path: Path, wishes: Wishes) -> Imported:
+def import_head(path: Path, wishes: Wishes, tell: Callable[[str], object] = str) -> Imported:
     """Make a rig and a look of a foreign head.
 
     Args:
         path: an ICT-FaceKit folder, a folder of OBJ files, or a ``.glb`` or ``.gltf`` file.
         wishes: what it shall be called, and which heads it has.
+        tell: is told what takes long when it begins, once the head is known to be good.
 
     Raises:
         InvalidInputError: it cannot become a rig; the message says what was expected, what was found and what to do.
@@ -110,6 +111,7 @@ def import_head(path: Path, wishes: Wishes) -> Imported:
     if warped:
         rig = replace(rig, regions={BROWS: _brows(template, warped, rig)})
     if wishes.combinations:
+        tell("Correctives are derived, which takes some minutes.")
         rig = with_combinations(rig, made.correctives, eyes, head.findings)
     rig = freed(with_collision_correctives(rig, drop, head.findings), drop, head.findings)
     if not warped:

@@ -18,19 +18,19 @@ def test_the_server_page_tells_what_works_and_what_to_see_to(owner, house):  # n
     assert re.search(r'aria-label="See to this".*?HTTPS', page, re.DOTALL)
 
 
-def test_drawing_is_measured_once_for_many_looks(owner, house):  # noqa: F811
+def test_drawing_is_measured_once_for_many_looks(owner, drawer):  # noqa: F811
     owner.get("/admin/server")
-    drawn = len(house.portraits._drawer.drawn)
+    drawn = len(drawer.drawn)
     owner.get("/admin/server")
-    assert len(house.portraits._drawer.drawn) == drawn
+    assert len(drawer.drawn) == drawn
 
 
-def test_no_page_waits_for_faces_that_take_long(owner, house, monkeypatch):  # noqa: F811
+def test_no_page_waits_for_faces_that_take_long(owner, drawer, monkeypatch):  # noqa: F811
     monkeypatch.setattr(upkeep, "KEPT_SECONDS", -1.0)
     monkeypatch.setattr(upkeep, "PATIENCE_SECONDS", 0.01)
-    house.portraits._drawer.hold = True
+    drawer.hold = True
     assert "Being measured" in owner.get("/admin/server").text
-    house.portraits._drawer.hold = False
+    drawer.hold = False
 
 
 def test_a_server_that_cannot_write_or_draw_says_so(owner, house, monkeypatch):  # noqa: F811
