@@ -43,6 +43,11 @@ class Export:
         return tuple(file["table"] for file in self._files.values() if "table" in file)
 
     @property
+    def paths(self) -> tuple[str, ...]:
+        """The files, as `read` takes them."""
+        return tuple(self._files)
+
+    @property
     def cursor(self) -> str:
         """Up to where the data is: what the server takes as `since`."""
         return str(self.manifest["cursor"])

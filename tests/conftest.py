@@ -7,6 +7,7 @@ import threading
 from concurrent.futures import Future
 
 import hypothesis
+import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
@@ -69,6 +70,8 @@ class FakeTailor:
     def __init__(self, rig):
         self.rig = rig
         self.space = load_bundled_space()
+        self.millimetres = 2.0
+        """How far its heads lie from the rig's own: processors differ a little in that."""
         self.fitted = []
         self.gate = threading.Event()
         self.gate.set()
@@ -77,7 +80,9 @@ class FakeTailor:
         self.fitted.append((identity.name, moving))
         assert self.gate.wait(10)
         name = worn_name(identity, self.space) + ("" if moving else "-still")
-        return WornHead(name, self.rig.neutrals["female"] + 2, None, identity.appearance, "female")
+        return WornHead(
+            name, self.rig.neutrals["female"] + np.float32(self.millimetres), None, identity.appearance, "female"
+        )
 
 
 def small_study(**changes):

@@ -11,12 +11,13 @@ import json
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from emogen_core.face.appearance import Appearance
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    import numpy as np
     from numpy.typing import NDArray
 
     from emogen_core.face.rig import Adjustment, Rig
@@ -65,6 +66,20 @@ def worn_look(look: Look, head: WornHead) -> Look:
     if head.appearance and look.paint and head.style not in look.styles:
         look = look.with_style(head.style, Appearance.from_document(head.appearance), look.style(head.like).bake)
     return look.changed(styles={**look.styles, head.name: look.style(head.style)})
+
+
+def apart(one: WornHead, other: WornHead) -> float:
+    """Return how far two heads lie apart where they do most, in millimetres: at rest, or in what a shape moves."""
+    far = _furthest(one.neutral - other.neutral)
+    if one.adjustment is None or other.adjustment is None:
+        return far
+    if not np.array_equal(one.adjustment.shapes, other.adjustment.shapes):
+        return float("inf")
+    return max(far, _furthest(one.adjustment.offsets - other.adjustment.offsets))
+
+
+def _furthest(steps: NDArray[np.float32]) -> float:
+    return float(np.linalg.norm(steps, axis=-1).max(initial=0))
 
 
 def dropped_rig(rig: Rig, name: str) -> Rig:

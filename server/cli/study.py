@@ -56,7 +56,7 @@ def check(file: File) -> None:
     """Say everything that is wrong with a study file; the status is 1 if there is anything."""
     with plainly():
         rig = load_bundled_rig()
-        config = Wardrobe(rig, HouseTailor(rig)).frozen(read_file(file))
+        config = Wardrobe(HouseTailor(rig)).frozen(read_file(file))
         require_fit(rig, config)
     typer.echo(f"{file}: a study of {len(config.emotions)} emotions, {config.hash()[:12]}")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -15,6 +16,7 @@ from emogen_core.rendering.pool import RenderPool
 
 from ..services.faces.drawing import NoDrawer, PoolDrawer
 from ..services.faces.face_model import FileModels, file_model, name_of
+from ..services.faces.kept_heads import FileHeads
 from ..services.faces.model_drawers import ModelDrawers
 from ..services.faces.tailor import HouseTailor
 from ..services.faces.wardrobe import Wardrobe
@@ -80,7 +82,9 @@ def worn(export: Export, file: Path | None) -> Iterator[Wearing]:
     if file is not None:
         model = file_model(_name(export), file)
         rig, models = model.rig, FileModels({model.name: model})
-    wardrobe = Wardrobe(load_bundled_rig(), HouseTailor(load_bundled_rig()), models=models)
+    bundled = load_bundled_rig()
+    kept = FileHeads(bundled, partial(_file, export))
+    wardrobe = Wardrobe(HouseTailor(bundled), models=models, kept=kept)
     try:
         yield Wearing(rig, wardrobe, models)
     finally:
@@ -94,6 +98,11 @@ def _name(export: Export) -> str:
     if not name:
         raise InvalidInputError(f"--rig: {expected('an export with heads called MODEL:HEAD', heads)}; leave it out")
     return name
+
+
+def _file(export: Export, name: str) -> bytes | None:
+    path = next((path for path in export.paths if path in {name, f"materials/{name}"}), None)
+    return None if path is None else export.read(path)
 
 
 def _started(model: FaceModel) -> PoolDrawer:

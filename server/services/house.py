@@ -13,6 +13,7 @@ from ..store.migrate import upgrade
 from .config.way_back import host_list
 from .faces.heads import Heads
 from .faces.imports import HeadImporter, Imports
+from .faces.kept_heads import StoredHeads
 from .faces.model_drawers import ModelDrawers
 from .faces.models import FaceModels
 from .faces.portrait_files import PortraitFiles
@@ -148,7 +149,8 @@ def build_house(
     database = open_database(settings)
     files = PortraitFiles(settings.data_dir / "portraits")
     models = FaceModels(database, settings.data_dir / "face-models")
-    wardrobe = Wardrobe(rig, tailor or HouseTailor(rig), settings.portrait_wait_seconds, models=models)
+    kept = StoredHeads(database, rig)
+    wardrobe = Wardrobe(tailor or HouseTailor(rig), settings.portrait_wait_seconds, models=models, kept=kept)
     drawers = ModelDrawers(drawer, models, settings.renderer, drawer_of)
     portraits = Portraits(drawers, files, database, wardrobe, settings.portrait_memory_mb * 2**20)
     journal = Journal(database, rig, portraits, wardrobe, host_list(settings.redirect_hosts))

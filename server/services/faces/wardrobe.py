@@ -22,6 +22,7 @@ from emogen_core.rendering.worn import WornHead, worn_rig
 from ..background import watched
 from ..errors import ConflictError, InvalidError, UnavailableError
 from .face_model import FileModels
+from .kept_heads import NothingKept
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 
     from ..config import StudyConfig
     from .face_model import Models
+    from .kept_heads import Kept
 
 Made = TypeVar("Made")
 LIMIT = 24
@@ -42,6 +44,11 @@ AGAIN = 5
 
 class Tailor(Protocol):
     """What fits heads: the methods of the rig's builder, or a quick fake in tests."""
+
+    @property
+    def rig(self) -> Rig:
+        """The rig that heads are fitted to."""
+        ...
 
     @property
     def space(self) -> IdentitySpace:
@@ -57,6 +64,7 @@ class Tailor(Protocol):
 class _Peg:
     """One head of a study, and what became of it."""
 
+    name: str
     document: Mapping[str, Any]
     head: WornHead | None = None
     rig: Rig | None = None
@@ -71,11 +79,25 @@ class Wardrobe:
     """The rig of the house, and what it wears besides its own heads. Safe to use from several threads."""
 
     def __init__(
-        self, rig: Rig, tailor: Tailor, patience: float = 20.0, limit: int = LIMIT, models: Models | None = None
+        self,
+        tailor: Tailor,
+        patience: float = 20.0,
+        limit: int = LIMIT,
+        models: Models | None = None,
+        kept: Kept | None = None,
     ) -> None:
-        """Keep `limit` heads; whoever waits for one waits `patience` seconds at most for its turn."""
-        self._rig, self._tailor, self._patience, self._limit = rig, tailor, patience, limit
+        """Have `limit` heads at hand; whoever waits for one waits `patience` seconds at most for its turn.
+
+        Args:
+            tailor: fits heads to the bundled rig.
+            patience: in seconds.
+            limit: of heads at hand.
+            models: the other face models.
+            kept: has heads that were fitted before, and keeps those that are fitted now.
+        """
+        self._rig, self._tailor, self._patience, self._limit = tailor.rig, tailor, patience, limit
         self._models: Models = models or FileModels()
+        self._kept: Kept = kept or NothingKept()
         self._pegs: OrderedDict[str, _Peg] = OrderedDict()
         self._lock = threading.Lock()
         self._needle = threading.Lock()
@@ -131,7 +153,7 @@ class Wardrobe:
         """Remember which documents a study has; nothing is fitted."""
         with self._lock:
             for name, document in config.documents.items():
-                self._pegs.setdefault(name, _Peg(document))
+                self._pegs.setdefault(name, _Peg(name, document))
 
     def prepare(self, config: StudyConfig) -> None:
         """Have the heads of a study fitted in the background."""
@@ -234,7 +256,7 @@ class Wardrobe:
             if peg.done:
                 return
             try:
-                head = self._tailor.fit(read_identity(peg.document, self.space))
+                head = self._fitted(peg)
             except EmogenError as error:
                 peg.problem = str(error)
                 return
@@ -242,6 +264,10 @@ class Wardrobe:
         with self._lock:
             for old in [one for one in self._pegs.values() if one.head is not None][: -self._limit]:
                 old.rig = old.head = None
+
+    def _fitted(self, peg: _Peg) -> WornHead:
+        """Return the head as it was fitted once, here or wherever the data comes from; else fit and keep it."""
+        return self._kept.head(peg.name) or self._kept.keep(self._tailor.fit(read_identity(peg.document, self.space)))
 
     def _fit_ahead(self, name: str) -> None:
         peg = self._peg(name)

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from emogen_core.rendering.worn import apart
+
 from ....store.runs_tables import ChoiceRecord, Face, Generation, Trial
 from ...faces.sketch import pack_genes, pack_weights
 from ..recorded_export import RecordedExport, matrix
@@ -26,11 +28,15 @@ if TYPE_CHECKING:
     from emogen_client import Export
     from emogen_core.face.rig import Rig
 
+    from ...config import StudyConfig
     from ...faces.wardrobe import Wardrobe
 
     Row = dict[str, Any]
     Where = tuple[str, int, int]
     """Trial, attempt, generation."""
+
+SAME_HEAD = 1.0
+"""Millimetres: processors fit a head up to 0.4 mm apart."""
 
 
 class _Numbers(NamedTuple):
@@ -52,6 +58,7 @@ class ExportReplay:
     wardrobe: Wardrobe
     _comparisons: dict[str, Comparison] = field(default_factory=dict)
     _numbers: dict[str, _Numbers] = field(default_factory=dict)
+    _heads: dict[str, float] = field(default_factory=dict)
 
     def everybody(self, done: Callable[[int, int], object] = lambda _done, _of: None) -> Replayed:
         """Replay every participation, up to the first difference.
@@ -116,7 +123,22 @@ class ExportReplay:
         rig = self.wardrobe.rig_of(recorded.config)
         if rig.hash not in self._comparisons:
             self._comparisons[rig.hash] = Comparison(rig, self.wardrobe)
+        for name, document in recorded.config.documents.items():
+            away = self._away(recorded.config, name, document)
+            if away > SAME_HEAD:
+                told = f"within {SAME_HEAD:g} mm of what its document gives", f"{away:.2f} mm away"
+                return Replayed(0, _amiss(recorded.participation, f"head {name}", *told))
         return self._comparisons[rig.hash].of(recorded)
+
+    def _away(self, config: StudyConfig, name: str, document: Mapping[str, Any]) -> float:
+        """Return how far, in millimetres, a head lies from the one that this processor fits to its document."""
+        if name not in self._heads:
+            self.wardrobe.know(config)
+            self.wardrobe.wait(name)
+            kept = self.wardrobe.head(name)
+            again = self.wardrobe.try_on(self.wardrobe.read(document), lambda: None, moving=True)
+            self._heads[name] = apart(again, kept) if kept else 0.0
+        return self._heads[name]
 
     def _shown(self, trial: Trial, rig: Rig) -> list[tuple[Generation, list[Face], ChoiceRecord | None]]:
         return [

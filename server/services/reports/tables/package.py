@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any, Literal
 from isal import isal_zlib
 
 from ....release import release
-from ....store import export
+from ....store import export, heads
+from ...faces.kept_heads import file_of
 from .columns import TABLES
 from .dictionary import codebook, dictionary
 from .download import Tally, table_file
@@ -62,6 +63,8 @@ class Package:
         told: list[dict[str, Any]] = []
         for path, text in self._documents().items():
             yield from self._told(told, path, None, Tally(), iter([text.encode()]))
+        for path, content in self._heads():
+            yield from self._told(told, path, None, Tally(), iter([content]))
         form: Format = "csv" if self.form == "psych-ds" else self.form
         for table in TABLES:
             tally = Tally()
@@ -89,6 +92,17 @@ class Package:
             "codebook.csv": codebook(self.chosen.rigs),
         }
         return documents_of(self.chosen, documents) if self.form == "psych-ds" else documents
+
+    def _heads(self) -> Iterator[tuple[str, bytes]]:
+        """Yield the heads that the study brought along, as they were fitted, each with its place."""
+        with self.database.read() as tx:
+            found = heads.heads_of(tx, self.chosen.wanted.study_id)
+        for name, rig in found:
+            with self.database.read() as tx:
+                content = heads.head(tx, name, rig)
+            if content is not None:
+                place = file_of(name, rig)
+                yield (f"materials/{place}" if self.form == "psych-ds" else place), content
 
     def _manifest(self, files: list[dict[str, Any]]) -> dict[str, Any]:
         chosen = self.chosen

@@ -25,7 +25,8 @@ expression that they had in mind; a genetic algorithm bred the next ten.
 - `data/`: one CSV file a table, and beside it a JSON file that describes its columns. Rows belong together by the
   columns `participation` and `trial`.
 - `documentation/`: what every column means, as CSV (codebook.csv) and as JSON (dictionary.json).
-- `materials/`: every version of the study's configuration, as it was frozen (configurations.json).
+- `materials/`: every version of the study's configuration, as it was frozen (configurations.json), and in heads/ the
+  heads that it brought along, as they were fitted.
 - `manifest.json`: rows, bytes and SHA-256 of every file.
 
 The columns that tell the rows of a table apart:

@@ -42,7 +42,7 @@ def name_of(signed):
 
 @pytest.fixture
 def wardrobe(rig, tailor):
-    made = Wardrobe(rig, tailor, patience=0.2, limit=3)
+    made = Wardrobe(tailor, patience=0.2, limit=3)
     yield made
     tailor.gate.set()
     made.close()
@@ -177,7 +177,8 @@ def test_a_head_of_another_space_is_told_for_good(wardrobe):
             wardrobe.wait(*config.heads)
 
 
-def test_the_heads_of_open_studies_are_fitted_at_the_start(house, settings, rig):
+def test_the_heads_of_open_studies_are_fitted_at_the_start(house, settings, rig, tailor):
+    tailor.gate.clear()  # ahead of it nothing was fitted
     made = house.studies.create(study_of(document("open")))
     house.studies.create(study_of(document("closed")), "closed")
     tailor = FakeTailor(rig)
@@ -269,5 +270,4 @@ def test_renewal_after_an_update_of_the_look_fits_nothing(client, house, setting
     assert tailor.fitted == []
     key = before.removeprefix("/portraits/").removesuffix(".png")[::-1]
     assert after.portraits.request(key).result(5)
-    assert tailor.fitted == [("Somebody", True)]
     after.close()

@@ -192,7 +192,7 @@ def test_a_participation_does_not_go_on_with_another_rig(client, house, study, m
 
     walker = Walker(client, study.links[0])
     state = walker.start()
-    monkeypatch.setitem(house.journal.__dict__, "rig", small_rig(seed=8))
+    monkeypatch.setattr(house.journal.wardrobe, "_rig", small_rig(seed=8))
     before = dump(house.database)
     reply = walker.post(walker.body(state))
     assert (reply.status_code, reply.json()["error"]["field"]) == (409, "rig")
