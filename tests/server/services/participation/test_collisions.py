@@ -13,6 +13,7 @@ from emogen_core.correctives.pipeline import face_weights
 from emogen_core.face.bundled import load_bundled_rig
 from server.services.faces import correction
 from server.services.faces.sketch import unpack_genes, unpack_weights
+from server.services.participation.replay.comparison import ROUNDING
 from server.services.trials.answer_bodies import ANSWER
 from server.store.migrate import config, upgrade
 from server.store.runs_tables import Face
@@ -75,7 +76,7 @@ def test_it_is_exported_to_the_last_bit(house, recorded):
     [
         ("collided_lips", lambda value: not value),
         ("collided_teeth", lambda value: not value),
-        ("depth_before", lambda value: np.nextafter(value, 9.0).item()),
+        ("depth_before", lambda value: value + 2 * ROUNDING),
         ("depth_after", lambda _: None),
     ],
 )
@@ -85,6 +86,13 @@ def test_a_changed_result_is_noticed(house, recorded, column, change):
         setattr(face, column, change(getattr(face, column)))
     difference = house.replay.study(recorded.id).difference
     assert (difference.what, difference.slot) == (column, face.slot)
+
+
+def test_a_depth_that_another_processor_rounds_otherwise_is_the_same(house, recorded):
+    with house.database.write() as tx:
+        for face in tx.scalars(select(Face)):
+            face.depth_before = np.nextafter(face.depth_before, 9.0).item()
+    assert house.replay.study(recorded.id).difference is None
 
 
 @BOTH
