@@ -44,6 +44,8 @@ if TYPE_CHECKING:
     from ..analysis.reading import Recording
     from ..analysis.section import Section
 
+app = typer.Typer()
+
 From = Annotated[Path, typer.Argument(metavar="EXPORT", help="A folder or zip of emogen export or of the Data page.")]
 Out = Annotated[Path, typer.Option("--out", help="Folder to write to.")]
 Pilot = Annotated[bool, typer.Option("--pilot", help="Count people of the pilot phase as well.")]
@@ -52,6 +54,7 @@ Flagged = Annotated[bool, typer.Option("--flagged", help="Count people who faile
 Json = Annotated[bool, typer.Option("--json", help="Print the numbers as JSON.")]
 
 
+@app.command()
 def analyse(  # noqa: PLR0913, PLR0917 - typer reads the options from the signature
     export: From, out: Out = Path("analysis"), pilot: Pilot = False, simulated: Simulated = False,
     flagged: Flagged = False, rig: RigFile = None, seed: Seed = 1, json_: Json = False,

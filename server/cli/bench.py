@@ -21,7 +21,8 @@ from .bench_packing import bench_packing
 from .bench_simulate import bench_simulate
 from .bench_transfer import bench_transfer
 from .chromium import chromium
-from .common import Json, load_settings, opened, plainly, report_text, rig_of
+from .common import Json, load_settings, plainly, report_text, rig_of
+from .housed import opened
 from .local import served
 from .turnaround import measure
 

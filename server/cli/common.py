@@ -1,4 +1,4 @@
-"""What commands share: options, the settings, reports, and errors as one sentence instead of a stack trace."""
+"""What all commands share: options, the settings, reports, and errors as one sentence instead of a stack trace."""
 
 from __future__ import annotations
 
@@ -15,9 +15,7 @@ from emogen_core.errors import EmogenError, expected
 from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.face.rig_file import load_rig
 
-from ..services.config.files import read_study
 from ..services.errors import InvalidError, ServiceError
-from ..services.opening import open_house
 from ..settings import Settings
 
 if TYPE_CHECKING:
@@ -26,8 +24,6 @@ if TYPE_CHECKING:
 
     from emogen_core.face.rig import Rig
 
-    from ..services.config import StudyConfig
-    from ..services.house import House
 
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 Backend = Annotated[str, typer.Option(help="pyrender or software.")]
@@ -44,18 +40,6 @@ def load_settings(**given: object) -> Settings:
 
 
 @contextmanager
-def opened(settings: Settings, *, drawing: bool = True) -> Iterator[House]:
-    """Open the house for a command, with or without drawing processes, and close it whatever happens."""
-    with plainly():
-        house = open_house(settings, drawing=drawing)
-    try:
-        with plainly():
-            yield house
-    finally:
-        house.close()
-
-
-@contextmanager
 def plainly() -> Iterator[None]:
     """Turn the errors of the house into one sentence, or one a problem of a study, and an exit status of 1."""
     try:
@@ -64,19 +48,6 @@ def plainly() -> Iterator[None]:
         raise stop("\n".join(one.sentence for one in error.problems) or error.message) from error
     except (EmogenError, ServiceError) as error:
         raise stop(str(error)) from error
-
-
-def read_file(file: Path) -> StudyConfig:
-    """Return the study of a file, YAML or JSON; end the command if there is no such file.
-
-    Raises:
-        InvalidError: it is no study, with every problem.
-    """
-    try:
-        content = file.read_bytes()
-    except OSError as error:
-        raise stop(f"{file}: expected a study file, got {error.strerror}") from error
-    return read_study(content)
 
 
 def rig_of(file: Path | None) -> Rig:

@@ -24,6 +24,8 @@ from .common import Json, load_settings
 if TYPE_CHECKING:
     from ..settings import Settings
 
+app = typer.Typer()
+
 # In a process of its own: opening GL can end a process that has no driver, and its environment has to be set first.
 _DRAW = """
 import json, numpy as np
@@ -40,6 +42,7 @@ print(json.dumps({**{k: glGetString(v).decode() for k, v in names.items()}, "dre
 Report = dict[str, Any]
 
 
+@app.command()
 def doctor(json_: Json = False) -> None:
     """Say where both packages come from, whether this machine draws, and how the database stands."""
     settings = load_settings()

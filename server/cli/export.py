@@ -8,11 +8,13 @@ from typing import Annotated, get_args
 
 import typer
 
-from ..services.house import open_database
 from ..services.reports.tables.export import Exports
 from ..services.reports.tables.package import Package, PackageFormat, write_folder, write_zip
 from ..services.reports.tables.selection import Filters, Kind
+from ..store.opening import open_database
 from .common import load_settings, made_folder, plainly, stop
+
+app = typer.Typer()
 
 Study = Annotated[str, typer.Option(help="Id of the study, as in its address on the admin pages.")]
 Out = Annotated[Path, typer.Option(help="Folder to write to, or a file that ends in .zip.")]
@@ -26,6 +28,7 @@ Of = Annotated[str, typer.Option(help="Only trials of this emotion.")]
 Since = Annotated[str | None, typer.Option(help="A cursor from an earlier manifest: only what changed since.")]
 
 
+@app.command()
 def export(  # noqa: PLR0913, PLR0917 - typer reads the options from the signature
     study: Study = "demo",
     out: Out = Path("export"),

@@ -8,7 +8,8 @@ from typing import Annotated
 
 import typer
 
-from .common import Json, load_settings, opened, plainly, stop
+from .common import Json, load_settings, plainly, stop
+from .housed import opened
 
 app = typer.Typer(help="Face models beside the bundled one: add, list, remove.", no_args_is_help=True)
 

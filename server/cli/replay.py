@@ -21,12 +21,15 @@ from .wearing import RigFile, Wearing, worn
 if TYPE_CHECKING:
     from ..services.participation.replay.recorded import Difference
 
+app = typer.Typer()
+
 From = Annotated[Path, typer.Argument(metavar="EXPORT", help="A folder or zip of emogen export or of the Data page.")]
 Portraits = Annotated[Path | None, typer.Option(help="Folder for the portraits, drawn again as PNG.")]
 Faces = Annotated[Which, typer.Option("--faces", help="Of which: finished, best of every generation, or all.")]
 Json = Annotated[bool, typer.Option("--json", help="Print what was found as JSON.")]
 
 
+@app.command()
 def replay(
     export: From, portraits: Portraits = None, faces: Faces = "finished", rig: RigFile = None, json_: Json = False
 ) -> None:

@@ -11,10 +11,13 @@ import uvicorn
 from ..app import create_app
 from ..logs import set_up_logs
 from ..settings import Settings  # shown in the signature of a helper
-from .common import load_settings, opened, stop
+from .common import load_settings, stop
+from .housed import opened
 
 if TYPE_CHECKING:
     from ..services.house import House
+
+app = typer.Typer()
 
 Host = Annotated[str | None, typer.Option(help="Address to listen on (EMOGEN_HOST).")]
 Port = Annotated[int | None, typer.Option(help="Port to listen on; 0 takes a free one (EMOGEN_PORT).")]
@@ -37,6 +40,7 @@ class HouseServer(uvicorn.Server):
         await super().shutdown(sockets)
 
 
+@app.command()
 def serve(host: Host = None, port: Port = None) -> None:
     """Migrate the database, make a demo study when there is none, serve, and print the links."""
     settings = load_settings(host=host, port=port)

@@ -16,7 +16,10 @@ from emogen_core.simulation.observer import Observer
 from ..app import create_app
 from ..services.studies.simulation import Report, Simulation
 from ..services.trials.evolution import params_of
-from .common import Json, load_settings, opened, plainly, stop
+from .common import Json, load_settings, plainly, stop
+from .housed import opened
+
+app = typer.Typer()
 
 Count = Annotated[int, typer.Option(min=1, max=10_000, help="How many.")]
 Study = Annotated[str, typer.Option(help="Id of the study.")]
@@ -30,6 +33,7 @@ Drift = Annotated[float, typer.Option(min=0, help="Step that every gene in mind 
 Left = Annotated[float, typer.Option(help="How much nearer the first place seems than the last.")]
 
 
+@app.command()
 def simulate(  # noqa: PLR0913, PLR0917 - typer reads the options from the signature
     participants: Count = 1, study: Study = "demo", seed: Seed = 0,
     url: Url = None, link: Link = None, token: Token = None,

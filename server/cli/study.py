@@ -23,7 +23,8 @@ from ..services.faces.wardrobe import Wardrobe
 from ..services.studies.editing.making import example_text
 from ..services.studies.fitting import require_fit
 from ..services.studies.life import NewLinks, Status
-from .common import Json, load_settings, opened, plainly, read_file, stop
+from .common import Json, load_settings, plainly, stop
+from .housed import opened, read_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -13,7 +13,8 @@ from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.simulation.evaluation.threshold import SEARCHES, threshold
 
 from ..reporting.noise import laboratory, search_key
-from .common import plainly, read_file
+from .common import plainly
+from .housed import read_file
 
 if TYPE_CHECKING:
     from emogen_core.simulation.evaluation.threshold import Threshold

@@ -9,7 +9,7 @@ from emogen_core.rigs.foreign.archive import unpacked
 
 from ..store import studies
 from ..store.engine import Database
-from ..store.migrate import upgrade
+from ..store.opening import open_database
 from .config.way_back import host_list
 from .faces.heads import Heads
 from .faces.imports import HeadImporter, Imports
@@ -199,10 +199,3 @@ def build_house(
         simulations=Simulations(journal, tokens),
         housekeeping=Housekeeping(journal, (previews.sweep, accounts.sweep, joining.sweep)),
     )
-
-
-def open_database(settings: Settings) -> Database:
-    """Return the database, brought to the present tables."""
-    settings.data_dir.mkdir(parents=True, exist_ok=True)
-    upgrade(settings.url)
-    return Database(settings.url)
