@@ -3,6 +3,11 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 ARGS ?=
+# Processes that run tests, a file of tests at a time. Each has a browser and a server of its own, so more of them want
+# more cores; and one thread each for algebra, or they take the cores from each other.
+JOBS ?= 2
+test: export OPENBLAS_NUM_THREADS = 1
+test: export OMP_NUM_THREADS = 1
 
 .DEFAULT_GOAL := help
 .PHONY: help serve test check bench install screenshots rig wheel clean
@@ -14,7 +19,7 @@ serve: $(VENV)/.serve ## install what is missing, migrate, make a demo study, se
 	$(BIN)/emogen serve $(ARGS)
 
 test: check ## install what is missing (a headless Chromium included), check, run every test
-	$(BIN)/pytest $(ARGS)
+	$(BIN)/pytest -n $(JOBS) --dist loadfile $(ARGS)
 
 check: $(VENV)/.test ## lint, format, types, import rules
 	$(BIN)/ruff check .

@@ -7,6 +7,7 @@ import sqlite3
 import subprocess
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 
 from emogen_core.errors import EmogenError
@@ -81,6 +82,7 @@ class Stage:
         return self.rows(sql, *values)[0][0]
 
 
+@cache
 def drawing():
     """Return what can draw on this machine: OpenGL where it works, else the slow fallback."""
     try:

@@ -100,6 +100,7 @@ def test_a_new_study_link_joins_and_its_address_is_copied(desk, browser):
     page.get_by_role("button", name="Make links").click()
     page.get_by_role("rowheader", name="P 2").wait_for()
     assert stage.one("SELECT count(*) FROM links WHERE kind = 'personal'") == 2
+    page.bring_to_front()  # only a page in focus may copy
     page.get_by_role("button", name="Copy").first.click()
     page.get_by_role("button", name="Copied").wait_for()
     address = page.evaluate("navigator.clipboard.readText()")

@@ -24,7 +24,7 @@ LOW = SPACE.low.astype(np.float64)
 FLESH = RIG.triangles[: RIG.parts["sockets"][1]]
 
 
-HEADS = [preset(name) for name in IDENTITIES] + [random_head(SPACE, seed) for seed in range(4)]
+HEADS = [preset(name) for name in IDENTITIES] + [random_head(SPACE, seed) for seed in range(2)]
 
 
 @pytest.fixture(scope="module", params=HEADS, ids=lambda head: head.name)

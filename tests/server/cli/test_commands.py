@@ -2,13 +2,18 @@
 
 import csv
 import json
+import subprocess
+import sys
 import zipfile
+from importlib import import_module
 
 import pytest
+from typer.main import get_command
 
 from emogen_client import Export
+from server.cli import COMMANDS
 from tests.psych_ds.check import problems
-from tests.server.cli.running import emogen
+from tests.server.cli.running import ROOT, emogen
 
 
 @pytest.fixture(scope="module")
@@ -127,8 +132,18 @@ def test_rig_check_measures(data_dir):
 
 def test_help_names_every_command(data_dir):
     said = emogen(data_dir, "--help").stdout
-    for command in ("serve", "doctor", "rig", "simulate", "export", "bench"):
-        assert command in said
+    assert [command for command in COMMANDS if f" {command} " not in said] == []
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_says_of_a_command_what_the_command_says_of_itself(command):
+    assert get_command(import_module(f"server.cli.{command}").app).help == COMMANDS[command]
+
+
+def test_help_imports_no_server_and_no_statistics():
+    asked = "import sys, server.cli; print([n for n in ('fastapi', 'sqlalchemy', 'scipy') if n in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", asked], capture_output=True, text=True, cwd=ROOT, check=True)
+    assert done.stdout == "[]\n"
 
 
 @pytest.mark.parametrize(
