@@ -1,8 +1,9 @@
 """`emogen bench export`: how fast and in how much memory a study is exported, in every format.
 
-Every second gene and weight is a number with all its digits, the others are 0: more to write than real faces have.
-Each format is measured in a process of its own, on one core; its memory is the greatest that the process had, less
-what it had before the first byte. On a machine that does other things
+The faces are those of searches that somebody went through who chooses by chance, so as many of their genes and weights
+are 0 as of real ones; every number that is not is changed a little from person to person, or formats that store equal
+columns once would be measured on what they never get. Each format is measured in a process of its own, on one core; its
+memory is the greatest that the process had, less what it had before the first byte. On a machine that does other things
 meanwhile, rows a second of the processor tell more.
 """
 
@@ -21,22 +22,35 @@ from typing import TYPE_CHECKING, Any, get_args
 import numpy as np
 
 from ..services.config import DEMO
-from ..services.faces.sketch import pack_genes, pack_weights
+from ..services.faces.correction import Correction
+from ..services.faces.sketch import pack_genes, pack_weights, unpack_genes, unpack_weights
 from ..services.participation.seating import register_rig
 from ..services.reports.tables.export import Exports
 from ..services.reports.tables.formats import Format
 from ..services.reports.tables.package import PackageFormat
+from ..services.trials.evolution import Evolution
 from ..store.engine import Database
 from ..store.fill import insert_rows
 from ..store.runs_tables import ChoiceRecord, Face, Generation, Participation, Trial
 from .filled import SETS, choice_row, face_row, generation_row, participation_row, trial_row
 
 if TYPE_CHECKING:
+    from emogen_core.face.rig import Rig
+
     from ..services.house import House
     from ..store.base import Base
 
-Row = dict[str, Any]
+    Row = dict[str, Any]
+    Search = list[list[Row]]
+    """The faces of every generation."""
+
 GENERATIONS, FACES = 11, 10
+SEARCHES = 8
+COPIED = (
+    "slot", "place", "origin", "parents", "genes", "weights", "collided_lips", "collided_teeth", "depth_before",
+    "depth_after",
+)  # fmt: skip
+"""Columns of a face that its search decides."""
 MIB = 2**20
 
 
@@ -91,46 +105,57 @@ def _fill(house: House, study: str, people: int) -> None:
     """Store participations with all their faces, a hundred in memory at a time."""
     version, link = house.life.versions(study)[-1], house.studies.summary(study).links[0]
     rig, random = house.journal.rig, np.random.default_rng(0)
+    searches = [_search(rig, seed) for seed in range(SEARCHES)]
     with house.database.write() as tx:
         register_rig(tx, rig)
     shared = {"study_id": study, "version_id": version.id, "link_id": link, "rig_hash": rig.hash}
     for first in range(0, people, 100):
         found = [{**shared, **_person(study, number)} for number in range(first, min(first + 100, people))]
-        recorded = _recorded(found, random, len(rig.gene_names), len(rig.shape_names))
+        recorded = _recorded(found, random, searches)
         with house.database.write() as tx:
             for table, rows in recorded.items():
                 insert_rows(tx, table, rows)
+
+
+def _search(rig: Rig, seed: int) -> Search:
+    """Return the faces of the generations of one search, whoever chooses in it by chance."""
+    config = DEMO.model_copy(update={"identities": rig.identities[:1]})
+    evolution, random = Evolution(rig, config, Correction(lambda _: rig), lambda *_: ""), np.random.default_rng(seed)
+    trial = Trial(id="", identity=rig.identities[0], seed=str(seed))
+    state, found = evolution.begin(trial, 0), []
+    for _ in range(GENERATIONS):
+        found.append([{name: getattr(face, name) for name in COPIED} for face in evolution.offer(trial, state)[1]])
+        trial.state = evolution.dump(state)
+        slots = random.choice(np.arange(1, FACES + 1), 3, replace=False).tolist()
+        state = evolution.tell(trial, slots, slots[0])
+    return found
 
 
 def _person(study: str, number: int) -> Row:
     return participation_row(number, study, datetime(2026, 1, 1, tzinfo=UTC) + timedelta(minutes=number))
 
 
-def _recorded(people: list[Row], random: np.random.Generator, genes: int, shapes: int) -> dict[type[Base], list[Row]]:
+def _recorded(people: list[Row], random: np.random.Generator, searches: list[Search]) -> dict[type[Base], list[Row]]:
     """Return the rows of participations by their table, in the order in which they can be stored."""
     trials = [trial_row(person, position) for person in people for position in range(SETS)]
     offered = [generation_row(trial, number) for trial in trials for number in range(GENERATIONS)]
-    faces = [face for one in offered for face in _faces(one["id"], random, genes, shapes)]
+    shown = [faces for _ in trials for faces in searches[random.integers(len(searches))]]
+    faces = [_face(one["id"], face, random) for one, ten in zip(offered, shown, strict=True) for face in ten]
     chosen = [_choice(one, faces[FACES * place]["id"]) for place, one in enumerate(offered)]
     return {Participation: people, Trial: trials, Generation: offered, Face: faces, ChoiceRecord: chosen}
 
 
-def _faces(generation: str, random: np.random.Generator, genes: int, shapes: int) -> list[Row]:
-    numbers = random.random((FACES, genes + shapes))
-    numbers[random.random(numbers.shape) < 0.5] = 0
-    return [
-        {
-            **face_row(generation),
-            "id": str(uuid.UUID(bytes=random.bytes(16))),
-            "slot": slot + 1,
-            "place": slot + 1,
-            "parents": [1, 2],
-            "genes": pack_genes(row[:genes]),
-            "weights": pack_weights(row[genes:].astype(np.float32)),
-            "portrait_key": random.bytes(32).hex(),
-        }
-        for slot, row in enumerate(numbers)
-    ]
+def _face(generation: str, face: Row, random: np.random.Generator) -> Row:
+    """Return a face with numbers of its own, about those of a face that was made."""
+    genes, weights = unpack_genes(face["genes"]), unpack_weights(face["weights"])
+    return {
+        **face_row(generation),
+        **face,
+        "id": str(uuid.UUID(bytes=random.bytes(16))),
+        "genes": pack_genes(genes * random.uniform(0.9, 1, len(genes))),
+        "weights": pack_weights(weights * random.uniform(0.9, 1, len(weights)).astype(np.float32)),
+        "portrait_key": random.bytes(32).hex(),
+    }
 
 
 def _choice(generation: Row, face: str) -> Row:

@@ -129,12 +129,21 @@ class ConfigurationsBody(BaseModel):
 class FilterQuery:
     """The filters of a request."""
 
-    condition: Annotated[str, Query(max_length=200, description="Only this condition.")] = ""
-    kind: Annotated[Kind | Literal[""], Query(description="Only real people, only pilot or only simulated ones.")] = ""
-    arrived_from: Annotated[datetime | None, Query(description="Only who arrived then or later; with its zone.")] = None
-    arrived_before: Annotated[datetime | None, Query(description="Only who arrived before then; with its zone.")] = None
-    block: Annotated[str, Query(max_length=200, description="Only trials of this block.")] = ""
-    emotion: Annotated[str, Query(max_length=200, description="Only trials of this emotion.")] = ""
+    condition: Annotated[str, Query(max_length=200, description="Only this condition.", examples=["female"])] = ""
+    kind: Annotated[
+        Kind | Literal[""],
+        Query(description="Only real people, only pilot or only simulated ones.", examples=["people"]),
+    ] = ""
+    arrived_from: Annotated[
+        datetime | None,
+        Query(description="Only who arrived then or later; with its zone.", examples=["2026-03-22T00:00:00+01:00"]),
+    ] = None
+    arrived_before: Annotated[
+        datetime | None,
+        Query(description="Only who arrived before then; with its zone.", examples=["2026-03-23T00:00:00+01:00"]),
+    ] = None
+    block: Annotated[str, Query(max_length=200, description="Only trials of this block.", examples=["evolve"])] = ""
+    emotion: Annotated[str, Query(max_length=200, description="Only trials of this emotion.", examples=["angry"])] = ""
 
     @property
     def filters(self) -> Filters:
@@ -148,7 +157,11 @@ class FileQuery(FilterQuery):
 
     since: Annotated[
         str | None,
-        Query(max_length=400, description="A cursor of an export with the same filters: only what changed since then."),
+        Query(
+            max_length=400,
+            description="A cursor of an export with the same filters: only what changed since then.",
+            examples=["WzEsImRlbW8iLCI0NGNlNGI1YTA0NWE3YmU3Iiw4OF0"],
+        ),
     ] = None
 
 

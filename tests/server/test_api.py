@@ -65,6 +65,9 @@ def test_the_description_tells_every_error_and_every_reply(client):
         for one in methods.values():
             assert one["tags"] and one["description"] and one["security"], path
             assert {"200", "401", "403", "404", "422"} <= set(one["responses"])
+            for word in one["parameters"]:
+                said = {*word, *word["schema"]}
+                assert {"example", "examples", "enum"} & said or word["in"] == "path", word["name"]
             for status, reply in one["responses"].items():
                 for content in reply["content"].values():
                     assert "schema" in content
