@@ -147,21 +147,19 @@ def build_house(
         drawer_of: makes what draws another face model; without it such faces are not drawn.
     """
     database = open_database(settings)
-    files = PortraitFiles(settings.data_dir / "portraits")
     models = FaceModels(database, settings.data_dir / "face-models")
     kept = StoredHeads(database, rig)
     wardrobe = Wardrobe(tailor or HouseTailor(rig), settings.portrait_wait_seconds, models=models, kept=kept)
     drawers = ModelDrawers(drawer, models, settings.renderer, drawer_of)
-    portraits = Portraits(drawers, files, database, wardrobe, settings.portrait_memory_mb * 2**20)
+    portraits = _portraits(settings, drawers, database, wardrobe)
     journal = Journal(database, rig, portraits, wardrobe, host_list(settings.redirect_hosts))
     imports = Imports(models, HeadImporter(), unpacked)
     previews = Previews(journal)
     noise = NoiseOfSearch(wardrobe.rig_of, settings.data_dir / "noise")
-    making, tokens = Studies(journal), Tokens(database)
+    making, tokens, joining = Studies(journal), Tokens(database), Joining(journal, settings.joins_per_minute)
     accounts = Accounts(database, settings.session_hours, settings.login_attempts)
-    joining = Joining(journal, settings.joins_per_minute)
-    exports, analyst = Exports(database), Analyst()
-    life, heads = StudyLife(journal, making), Heads(rig, wardrobe, portraits, models)
+    exports, analyst, life = Exports(database), Analyst(), StudyLife(journal, making)
+    heads = Heads(rig, wardrobe, portraits, models)
     return House(
         settings=settings,
         journal=journal,
@@ -199,3 +197,8 @@ def build_house(
         simulations=Simulations(journal, tokens),
         housekeeping=Housekeeping(journal, (previews.sweep, accounts.sweep, joining.sweep)),
     )
+
+
+def _portraits(settings: Settings, drawer: PortraitDrawer, database: Database, wardrobe: Wardrobe) -> Portraits:
+    files = PortraitFiles(settings.data_dir / "portraits")
+    return Portraits(drawer, files, database, wardrobe, settings.portrait_memory_mb * 2**20)

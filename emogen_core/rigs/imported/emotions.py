@@ -40,12 +40,7 @@ def emotion_sets(genes: Sequence[Gene], findings: Findings) -> dict[str, Emotion
 
 def _shown(wanted: EmotionSet, genes: Sequence[Gene]) -> tuple[EmotionSet | None, list[str]]:
     """Return a set with the genes that there are, and which action units of it nothing shows; none for no gene."""
-    strengths: dict[str, float] = {}
-    names = {gene.name for gene in genes}
-    for name, strength in zip(wanted.genes, wanted.strengths, strict=True):
-        stand_in = name if name in names else _stand_in(_UNITS[name], wanted, genes)
-        if stand_in:
-            strengths[stand_in] = min(1.0, strengths.get(stand_in, 0.0) + strength)
+    strengths = _strengths(wanted, genes)
     shown = {unit for gene in genes if gene.name in strengths for unit in gene.action_units}
     lacking = [f"nothing shows action unit {unit}" for unit in wanted.action_units if unit not in shown]
     if not strengths:
@@ -53,6 +48,17 @@ def _shown(wanted: EmotionSet, genes: Sequence[Gene]) -> tuple[EmotionSet | None
     units = tuple(unit for unit in wanted.action_units if unit in shown)
     kept = {name: round(strength, 4) for name, strength in strengths.items()}
     return replace(wanted, genes=tuple(kept), strengths=tuple(kept.values()), action_units=units), lacking
+
+
+def _strengths(wanted: EmotionSet, genes: Sequence[Gene]) -> dict[str, float]:
+    """Return how strong each gene that there is has to be, standing in for those that there are not."""
+    strengths: dict[str, float] = {}
+    names = {gene.name for gene in genes}
+    for name, strength in zip(wanted.genes, wanted.strengths, strict=True):
+        stand_in = name if name in names else _stand_in(_UNITS[name], wanted, genes)
+        if stand_in:
+            strengths[stand_in] = min(1.0, strengths.get(stand_in, 0.0) + strength)
+    return strengths
 
 
 def _stand_in(units: tuple[str, ...], wanted: EmotionSet, genes: Sequence[Gene]) -> str:
