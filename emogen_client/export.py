@@ -6,7 +6,7 @@ import hashlib
 import io
 import json
 import zipfile
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import IO, TYPE_CHECKING, Any, cast
 
 from .errors import EmogenClientError, IncompleteError, UnreadableError
@@ -27,6 +27,7 @@ class Export:
 
     Raises:
         IncompleteError: there is no manifest, which is written last.
+        UnreadableError: it names a file outside of the export, where nothing may be read or written.
     """
 
     def __init__(self, path: str | PathLike[str]) -> None:
@@ -36,6 +37,9 @@ class Export:
             self._files: dict[str, Mapping[str, Any]] = {file["path"]: file for file in self.manifest["files"]}
         except (OSError, ValueError, LookupError, TypeError, zipfile.BadZipFile) as error:
             raise IncompleteError(str(self.path), f"an export with a {MANIFEST}", "none") from error
+        outside = next((path for path in self._files if not _inside(path)), None)
+        if outside is not None:
+            raise UnreadableError(MANIFEST, f"{outside} is no file of an export")
 
     @property
     def tables(self) -> tuple[str, ...]:
@@ -131,3 +135,9 @@ class Export:
         if self.path.is_dir():
             return (self.path / path).open("rb")
         return io.BytesIO(zipfile.ZipFile(self.path).read(path))
+
+
+def _inside(path: str) -> bool:
+    """Return whether a file of a manifest lies within the export, wherever that is unpacked."""
+    parts = PurePosixPath(path).parts
+    return bool(parts) and ".." not in parts and not parts[0].startswith("/") and "\\" not in path and ":" not in path

@@ -32,6 +32,8 @@ def merged(known: Export | None, news: Export, folder: Path, place: Path) -> Non
     files = []
     for file in news.manifest["files"]:
         path = place / file["path"]
+        for beginning in (place, folder):
+            (beginning / file["path"]).parent.mkdir(parents=True, exist_ok=True)
         if "table" in file:
             old = folder / file["path"] if known is not None else None
             rows = _merge_table(old, news.arrow(file["table"]), gone, path)

@@ -84,3 +84,10 @@ def test_what_is_no_manifest_is_no_export(tmp_path, text):
     (tmp_path / "manifest.json").write_text(text)
     with pytest.raises(IncompleteError, match=r"expected an export with a manifest.json"):
         Export(tmp_path)
+
+
+@pytest.mark.parametrize("path", ["../other.csv", "/etc/passwd", "heads/../../x", "C:/x", "..\\x", ""])
+def test_a_manifest_that_names_a_file_outside_of_the_export_is_refused(tmp_path, path):
+    (tmp_path / "manifest.json").write_text(json.dumps({"files": [{"path": path, "bytes": 0, "sha256": ""}]}))
+    with pytest.raises(UnreadableError, match=r"manifest.json: .* is no file of an export"):
+        Export(tmp_path)

@@ -8,9 +8,13 @@ from pyarrow import parquet
 
 from emogen_client import EmogenClientError, Export, FramesMissingError, IncompleteError, RefusedError, Study
 from emogen_client.study import BROKE_OFF
+from emogen_core.face.identity import Identity, signed_document
+from emogen_core.face.space_file import load_bundled_space
 from server.services.reports.tables.columns import TABLES
+from tests.conftest import small_study
 from tests.emogen_client.conftest import ADDRESS
 from tests.server.exported import lines
+from tests.server.walker import Walker
 
 
 def sorted_rows(table):
@@ -45,6 +49,18 @@ def test_a_package_reads_the_same_in_every_format(study, tmp_path, form):
         assert sorted_rows(found.cast(want.schema)) == sorted_rows(want), (form, table)
     assert export.configurations() == study.configurations()
     assert set(export.dictionary()) == set(TABLES)
+
+
+def test_heads_that_a_study_brought_along_come_with_its_data(house, client, token, tmp_path):
+    head = signed_document(Identity("Somebody", {"age": 40.0}), load_bundled_space())
+    made = house.studies.create(small_study(identities=(head,)))
+    study = Study(ADDRESS, made.id, token, client=client)
+    for _ in range(2):
+        Walker(client, made.links[0]).finish()
+        export = study.update(tmp_path)
+        export.verify()
+        (path,) = (path for path in export.paths if path.startswith("heads/"))
+        assert export.read(path) == (tmp_path / path).read_bytes()
 
 
 def test_a_folder_is_kept_up_to_date(study, made, client, house, tmp_path):
