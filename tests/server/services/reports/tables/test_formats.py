@@ -10,7 +10,7 @@ import pyarrow as pa
 import pytest
 
 from emogen_client.parsing import parsed
-from server.services.reports.tables.formats import writer
+from server.services.reports.tables.formats import LONG_RUN, writer
 from server.services.spreadsheet import guarded
 
 MOMENT = datetime(2026, 3, 22, 14, 7, 31, 250000, tzinfo=UTC)
@@ -87,3 +87,26 @@ def test_numbers_read_back_bit_for_bit():
     for (one, two), row, double, single in zip(plain, rich, doubles, singles, strict=False):
         assert float(one).hex() == float(row["double"]).hex() == float(double).hex()
         assert float(two).hex() == float(row["single"]).hex() == float(single).hex()
+
+
+@pytest.mark.parametrize("text", ["plain", "=1+1", 'with "quotes", and\nlines', "\x01", '"\x01"', ""])
+def test_csv_says_every_number_of_a_long_run_and_nothing_where_there_is_none(text):
+    random = np.random.default_rng(3)
+    table = random.normal(size=(7, LONG_RUN)) * 10.0 ** random.integers(-12, 12, (7, LONG_RUN))
+    table[random.random(table.shape) < 0.5] = 0
+    table[0, :3] = (10.0, -200.0, 1e22)
+    table[1, 4], table[6, -1], table[3, 0] = np.nan, np.nan, np.nan
+    columns = {
+        "text": pa.array([text] * 7, pa.string()),
+        **{f"n{place}": pa.array(column, from_pandas=True) for place, column in enumerate(table.T)},
+        "flag": pa.array([True, None] * 3 + [False]),
+    }
+    batch = pa.record_batch(columns)
+    made = writer("csv", batch.schema)
+    rows = list(csv.reader(io.StringIO((made.begin() + made.rows(batch) + made.end()).decode(), newline="")))
+    assert rows[0] == [*columns]
+    assert [row[0] for row in rows[1:]] == [guarded(text)] * 7
+    assert [row[-1] for row in rows[1:]] == ["true", "", "true", "", "true", "", "false"]
+    for row, numbers in zip(rows[1:], table, strict=True):
+        assert [cell == "" for cell in row[1:-1]] == np.isnan(numbers).tolist()
+        assert [float(cell or "nan") for cell in row[1:-1]] == pytest.approx(numbers, rel=0, abs=0, nan_ok=True)
