@@ -131,7 +131,7 @@ def test_a_study_is_closed_and_deleted_on_purpose(desk, browser):
     page.get_by_role("link", name="Start recruiting").click()
     must_be_accessible(page)
     page.get_by_role("link", name="Change ethics approval").click()
-    assert page.get_by_label("Ethics approval").first.is_visible(), "the fold that it stands in is open"
+    page.get_by_label("Ethics approval").first.wait_for()  # seen, so the fold that it stands in is open
     page.go_back()
     page.get_by_role("button", name="Start recruiting anyway").click()
     page.get_by_role("link", name="Close study").click()

@@ -218,7 +218,7 @@ def test_the_report_is_made_behind_the_page_and_opens_in_a_tab(filled, open_page
     assert report.evaluate(DRAWN, "img")
     assert report.locator("img").count() > 0
     report.get_by_role("link", name="Methods, for a paper").click()
-    assert report.get_by_text("Analysed with Emogen").is_visible()
+    report.get_by_text("Analysed with Emogen").wait_for()
     with page.expect_download() as loaded:
         page.get_by_role("link", name="All tables and the report (zip)").click()
     with zipfile.ZipFile(loaded.value.path()) as files:
