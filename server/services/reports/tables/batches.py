@@ -38,11 +38,14 @@ def schema(table: str, rigs: Sequence[RigRecord]) -> pa.Schema:
     return pa.schema([_field(column) for column in header(table, rigs)])
 
 
-def batch(table: str, rigs: Sequence[RigRecord], names: Sequence[str], rows: Sequence[Sequence[Any]]) -> pa.RecordBatch:
+def batch(
+    table: str, shape: pa.Schema, rigs: Sequence[RigRecord], names: Sequence[str], rows: Sequence[Sequence[Any]]
+) -> pa.RecordBatch:
     """Return rows as they come from the store as one batch.
 
     Args:
         table: the table.
+        shape: its schema with these rigs.
         rigs: the rigs in use, which name the genes and shapes.
         names: what the store calls the columns of a row.
         rows: at least one row.
@@ -51,7 +54,7 @@ def batch(table: str, rigs: Sequence[RigRecord], names: Sequence[str], rows: Seq
     arrays: list[pa.Array] = []
     for column in TABLES[table].columns:
         arrays.extend(_vectors(column, rigs, cells) if column.family else [_array(table, column, cells)])
-    return pa.record_batch(arrays, schema=schema(table, rigs))
+    return pa.record_batch(arrays, schema=shape)
 
 
 def _field(column: Column) -> pa.Field:
@@ -94,4 +97,4 @@ def _vectors(column: Column, rigs: Sequence[RigRecord], cells: Cells) -> list[pa
             places = np.array([names.index(name) for name in names_of(rig, column)])
             stored = unpack(b"".join(cells[column.family][row] for row in at.tolist()))
             matrix[np.ix_(places, at)] = stored.reshape(at.size, places.size).T
-    return [pa.array(values, from_pandas=True) for values in matrix]
+    return [pa.array(values, from_pandas=bool(np.isnan(values).any())) for values in matrix]

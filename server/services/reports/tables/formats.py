@@ -5,6 +5,8 @@ from __future__ import annotations
 import csv
 import io
 import json
+import re
+from functools import lru_cache
 from typing import TYPE_CHECKING, Literal, Protocol
 
 import numpy as np
@@ -23,7 +25,7 @@ if TYPE_CHECKING:
 Format = Literal["csv", "jsonl", "parquet"]
 GROUP_ROWS = 8192
 """Rows of a row group of Parquet: fewer make a long footer, more want memory."""
-_ESCAPED = r'[\x00-\x1f"\\]'
+_ESCAPED = re.compile(rb'[\x00-\x1f"\\]')
 """What does not stand in a JSON string as it is."""
 LONG_RUN = 16
 """Columns of numbers side by side that are worth a way of their own."""
@@ -126,44 +128,60 @@ def _time(column: pa.Array) -> pa.Array:
 
 
 class _JsonLines:
-    """Rows are put together from columns of text: a name, a value, and the comma that comes before the next name.
+    """Rows are put together from columns of text: what stands before a value, the value, what stands before the next.
 
     A number brings its comma along, since all numbers of a batch are written at once (`_numbers`).
     """
 
     def __init__(self, schema: pa.Schema) -> None:
+        self._names = [f"{json.dumps(name)}:" for name in schema.names]
         self._numbers = [place for place, kind in enumerate(schema.types) if pa.types.is_floating(kind)]
         self._nested = {place for place, field in enumerate(schema) if (field.metadata or {}).get(b"type") == b"json"}
-        self._names = [
-            pa.scalar(f"{self._before(place)}{json.dumps(name)}:") for place, name in enumerate(schema.names)
-        ]
 
     def begin(self) -> bytes:
         return b""
 
     def rows(self, batch: pa.RecordBatch) -> bytes:
         numbers = dict(zip(self._numbers, _numbers([batch.column(place) for place in self._numbers]), strict=True))
-        values = [
-            numbers[place] if place in numbers else _value(column, nested=place in self._nested)
-            for place, column in enumerate(batch.columns)
-        ]
-        if len(values) - 1 in numbers:
-            values[-1] = pc.ascii_rtrim(values[-1], ",")
-        pieces = [piece for pair in zip(self._names, values, strict=True) for piece in pair]
-        return _joined(pc.binary_join_element_wise(*pieces, "}\n", ""))
+        pieces: list[pa.Scalar | pa.Array] = []
+        after = "{"
+        for place, name in enumerate(self._names):
+            quote, value = ("", numbers[place]) if place in numbers else self._value(batch, place)
+            pieces += [_literal(after + name + quote), value]
+            after = "" if place in numbers else f"{quote},"
+        if not after:
+            pieces[-1] = pc.ascii_rtrim(pieces[-1], ",")
+        return _joined(pc.binary_join_element_wise(*pieces, after.rstrip(",") + "}\n", ""))
 
     def end(self) -> bytes:
         return b""
 
-    def _before(self, place: int) -> str:
-        if place == 0:
-            return "{"
-        return "" if place - 1 in self._numbers else ","
+    def _value(self, batch: pa.RecordBatch, place: int) -> tuple[str, pa.Array]:
+        """Return a column without numbers as JSON, and the quote that still belongs on either side of it.
+
+        Most text can stand in a string as it is, so its quotes are written with the names.
+        """
+        column = batch.column(place)
+        if place in self._nested:
+            return "", _nulls(column)
+        if pa.types.is_string(column.type):
+            return _quoted(column)
+        if pa.types.is_timestamp(column.type):
+            return "", _nulls(pc.binary_join_element_wise('"', _time(column), '"', ""))
+        return "", _nulls(column.cast(pa.string()))
+
+
+@lru_cache(maxsize=4096)
+def _literal(text: str) -> pa.Scalar:
+    """Return a text as Arrow wants it, which takes longer to make than to write."""
+    return pa.scalar(text)
 
 
 def _joined(lines: pa.Array) -> bytes:
     """Return all texts one after the other, which is how Arrow keeps them."""
     _, offsets, data = lines.buffers()
+    if data is None:  # nothing but nulls
+        return b""
     ends = memoryview(offsets).cast("i")
     return bytes(memoryview(data)[ends[lines.offset] : ends[lines.offset + len(lines)]])
 
@@ -186,27 +204,19 @@ def _numbers(columns: list[pa.Array]) -> list[pa.Array]:
     return [cells[begin : begin + rows] for begin in range(0, table.size, rows)]
 
 
-def _value(column: pa.Array, *, nested: bool) -> pa.Array:
-    """Return a column without numbers as JSON; what is JSON already stays as it is."""
-    value = column if nested else _plain(column)
+def _nulls(value: pa.Array) -> pa.Array:
     return pc.fill_null(value, "null") if value.null_count else value
 
 
-def _plain(column: pa.Array) -> pa.Array:
-    if pa.types.is_string(column.type):
-        return _quoted(column)
-    if pa.types.is_timestamp(column.type):
-        return pc.binary_join_element_wise('"', _time(column), '"', "")
-    return column.cast(pa.string())
-
-
-def _quoted(column: pa.Array) -> pa.Array:
-    """Return text as JSON strings; what occurs often is written once."""
-    if not pc.match_substring_regex(column, _ESCAPED).true_count:
-        return pc.binary_join_element_wise('"', column, '"', "")
-    coded = column.dictionary_encode()
-    words = pa.array([json.dumps(word, ensure_ascii=False) for word in coded.dictionary.to_pylist()], pa.string())
-    return words.take(coded.indices)
+def _quoted(column: pa.Array) -> tuple[str, pa.Array]:
+    """Return text as JSON strings, with their quotes or the quotes apart; what has to be escaped is written once."""
+    if _ESCAPED.search(_joined(column)):
+        coded = column.dictionary_encode()
+        words = pa.array([json.dumps(word, ensure_ascii=False) for word in coded.dictionary.to_pylist()], pa.string())
+        return "", _nulls(words.take(coded.indices))
+    if column.null_count:
+        return "", _nulls(pc.binary_join_element_wise('"', column, '"', ""))
+    return '"', column
 
 
 class _Parquet:
