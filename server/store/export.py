@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from sqlalchemy import ColumnElement, Select, String, and_, case, cast, func, literal, select
+from sqlalchemy import ColumnElement, Select, String, and_, cast, func, literal, select
 
 from .roster import KINDS
 from .runs_tables import (
@@ -108,18 +108,24 @@ def _generations() -> Select[*tuple[Any, ...]]:
 
 def _faces() -> Select[*tuple[Any, ...]]:
     columns = (
-        Face.id.label("face"), Face.slot, Face.place, Face.origin, _text(Face.parents), Face.identity,
-        Face.portrait_key, Face.genes, Face.weights, Face.collided_lips, Face.collided_teeth,
-        Face.depth_before.label("depth_before_mm"),
-        Face.depth_after.label("depth_after_mm"), Participation.rig_hash, _text(ChoiceRecord.selected),
-        case((ChoiceRecord.id.is_not(None), ChoiceRecord.elite_face_id == Face.id)).label("elite"),
+        Face.generation_id, Face.id.label("face"), Face.slot, Face.place, Face.origin, _text(Face.parents),
+        Face.identity, Face.portrait_key, Face.genes, Face.weights, Face.collided_lips, Face.collided_teeth,
+        Face.depth_before.label("depth_before_mm"), Face.depth_after.label("depth_after_mm"),
     )  # fmt: skip
     return (
-        _of_generations(*columns)
-        .join(Face, Face.generation_id == Generation.id)
-        .outerjoin(ChoiceRecord, ChoiceRecord.generation_id == Generation.id)
-        .order_by(Face.slot)
+        select(*columns)
+        .join(Generation, Generation.id == Face.generation_id)
+        .join(Trial, Trial.id == Generation.trial_id)
+        .join(Participation, Participation.id == Trial.participation_id)
+        .order_by(Participation.number, Trial.position, Generation.attempt, Generation.number, Face.slot)
     )
+
+
+def _generations_of_faces() -> Select[*tuple[Any, ...]]:
+    return _of_generations(
+        Generation.id.label("generation_id"), Participation.rig_hash, _text(ChoiceRecord.selected),
+        ChoiceRecord.elite_face_id.label("elite"),
+    ).outerjoin(ChoiceRecord, ChoiceRecord.generation_id == Generation.id)  # fmt: skip
 
 
 def _choices() -> Select[*tuple[Any, ...]]:
@@ -194,25 +200,59 @@ QUERIES = {
     "responses": _responses,
 }
 
+SHARED = {"faces": (_generations_of_faces, "generation_id")}
+"""What several rows of a table have in common is read once, in a query of its own, with the column that leads there."""
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """Rows of a table.
+
+    Attributes:
+        names: of the columns of `rows`.
+        rows: of the table.
+        shared: what some of them have in common, if that comes apart.
+        key: the column of both that says which row has what.
+    """
+
+    names: Sequence[str]
+    rows: Sequence[Sequence[Any]]
+    shared: Page | None = None
+    key: str = ""
+
 
 def chosen(tx: Tx, wanted: Wanted) -> Sequence[int]:
     """Return the numbers of the participations that are wanted; an experimenter's previews are not data."""
     return tx.scalars(select(Participation.number).where(*_conditions(wanted)).order_by(Participation.number)).all()
 
 
-def page(tx: Tx, table: str, wanted: Wanted, numbers: Sequence[int]) -> tuple[list[str], Sequence[Sequence[Any]]]:
-    """Return the names of the columns of a table and its rows for some participations."""
-    query = _query(table, wanted).where(
-        Participation.study_id == wanted.study_id, Participation.number.in_(numbers), Participation.preview.is_(False)
-    )
+def page(tx: Tx, table: str, wanted: Wanted, numbers: Sequence[int]) -> Page:
+    """Return the rows of a table for some participations."""
+    names, rows = _rows(tx, _restricted(QUERIES[table](), table, wanted), wanted, numbers)
+    if table not in SHARED or not rows:
+        return Page(names, rows)
+    query, key = SHARED[table]
+    return Page(names, rows, Page(*_rows(tx, _restricted(query(), table, wanted), wanted, numbers)), key)
+
+
+def _rows(
+    tx: Tx, query: Select[*tuple[Any, ...]], wanted: Wanted, numbers: Sequence[int]
+) -> tuple[list[str], Sequence[Sequence[Any]]]:
     # By the connection: the session looks for objects in rows that are none, a quarter of the time of a page.
-    result = tx.connection().execute(query)
+    result = tx.connection().execute(
+        query.where(
+            Participation.study_id == wanted.study_id,
+            Participation.number.in_(numbers),
+            Participation.preview.is_(False),
+        )
+    )
     return list(result.keys()), result.all()
 
 
 def counts(tx: Tx, wanted: Wanted) -> dict[str, int]:
     """Return how many rows each table has."""
-    return {table: _count(tx, _query(table, wanted).where(*_conditions(wanted))) for table in QUERIES}
+    found = {table: _restricted(query(), table, wanted) for table, query in QUERIES.items()}
+    return {table: _count(tx, query.where(*_conditions(wanted))) for table, query in found.items()}
 
 
 def changed(tx: Tx, wanted: Wanted, numbers: Sequence[int], revision: int) -> Sequence[str]:
@@ -243,8 +283,8 @@ def _count(tx: Tx, query: Select[*tuple[Any, ...]]) -> int:
     return tx.scalar(select(func.count()).select_from(query.order_by(None).subquery())) or 0
 
 
-def _query(table: str, wanted: Wanted) -> Select[*tuple[Any, ...]]:
-    query = QUERIES[table]()
+def _restricted(query: Select[*tuple[Any, ...]], table: str, wanted: Wanted) -> Select[*tuple[Any, ...]]:
+    """Return the query of a table with only the trials that are wanted."""
     if table == "participations":
         return query
     query = query.where(Trial.block == wanted.block) if wanted.block else query

@@ -35,7 +35,7 @@ def apart(page):
 
 
 def on_device(page, store, count):
-    """Wait until the browser has so many items in a store of its own; what the page itself asked of it before is done."""
+    """Wait until the browser has so many items in a store of its own, and has done what was asked of it before."""
     page.wait_for_function(STORED, arg=[store, count])
 
 

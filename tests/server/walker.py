@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import time
 import uuid
+
+PATIENCE = 24
+"""How often it comes again where it is asked to, as on a machine that is busy with heads."""
 
 
 def respond(item, **said):
@@ -39,6 +43,11 @@ class Walker:
 
     def answer(self, kind, **body):
         reply = self.post({"id": str(uuid.uuid4()), "kind": kind, **body})
+        for _ in range(PATIENCE):
+            if "retry-after" not in reply.headers:
+                break
+            time.sleep(int(reply.headers["retry-after"]))
+            reply = self.client.post(f"{self.address}/answers", json=self.sent[-1])
         assert reply.status_code == 200, reply.text
         return reply.json()
 
