@@ -1,5 +1,6 @@
 """The analyst's interface: what it says of itself, downloads with cursor and receipt, and the dashboard's links."""
 
+import csv
 import hashlib
 import io
 import json
@@ -18,7 +19,7 @@ from server.app import create_app
 from server.services.reports.tables.columns import TABLES
 from server.services.reports.tables.dictionary import markdown
 from tests.conftest import small_study
-from tests.server.exported import text
+from tests.server.exported import lines, text
 from tests.server.openapi import described
 from tests.server.walker import Walker
 
@@ -46,6 +47,10 @@ def get(client, study, token):
         return client.get(f"/api/v1/studies/{study.id}/{path}", params=params, headers=headers)
 
     return fetch
+
+
+def genes_of(emotion, row):
+    return {(emotion, name): float(value) for name, value in row.items() if name.startswith("gene_")}
 
 
 def documented(language):
@@ -166,7 +171,7 @@ def test_the_python_of_the_document_runs_and_counts_only_who_completed(client, h
 
 
 @pytest.mark.skipif(shutil.which("Rscript") is None, reason="R is not installed")
-def test_the_r_of_the_document_runs(house, study, token, tmp_path):
+def test_the_r_of_the_document_runs_and_means_what_python_finds(house, study, token, tmp_path):
     code = documented("r")
     assert len(code.splitlines()) <= 10
     server = uvicorn.Server(uvicorn.Config(create_app(house), port=0, log_level="error"))
@@ -176,6 +181,7 @@ def test_the_r_of_the_document_runs(house, study, token, tmp_path):
         time.sleep(0.05)
     port = server.servers[0].sockets[0].getsockname()[1]
     here = code.replace(HOST, f"http://127.0.0.1:{port}").replace("/studies/demo", f"/studies/{study.id}")
+    here += 'write.csv(measured[c("emotion", grep("^gene_", names(measured), value = TRUE))], "measured.csv")'
     try:
         done = subprocess.run(
             ["Rscript", "-e", here], capture_output=True, text=True, timeout=120, check=False,
@@ -186,3 +192,14 @@ def test_the_r_of_the_document_runs(house, study, token, tmp_path):
         thread.join()
     assert done.returncode == 0, done.stderr
     assert "happy" in done.stdout
+    with (tmp_path / "measured.csv").open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    faces = {face["face"]: face for face in lines(house, study.id, "faces")}
+    trials = [trial for trial in lines(house, study.id, "trials") if trial["final_face"] and not trial["practice"]]
+    found, meant = {}, {}
+    for row in rows:
+        found |= genes_of(row["emotion"], row)
+    for trial in trials:
+        meant |= genes_of(trial["emotion"], faces[trial["final_face"]])
+    assert len(rows) == len(trials) > 1
+    assert found == pytest.approx(meant, abs=1e-12)
