@@ -118,17 +118,21 @@ def _readable(text: str | None) -> str | None:
 def _vectors(column: Column, rigs: Sequence[RigRecord], cells: _Cells) -> list[pa.Array]:
     """Return a column for each gene or shape; empty where a face's rig does not have it."""
     assert column.family is not None
-    stored, unpack = cells.own[column.family], _UNPACK[column.family]
+    stored = cells.own[column.family]
     names = list(dict.fromkeys(name for rig in rigs for name in names_of(rig, column)))
-    kind: type[np.floating[Any]] = np.float32 if column.single else np.float64
-    matrix = np.full((len(names), len(stored)), np.nan, kind)
+    matrix = np.full((len(names), len(stored)), np.nan, np.float32 if column.single else np.float64)
     for rig in rigs:
         at = cells.where("rig_hash", rig.hash)
         if at.size:
             places = np.array([names.index(name) for name in names_of(rig, column)])
-            values = unpack(b"".join(stored[row] for row in at.tolist())).reshape(at.size, places.size)
-            if at.size == len(stored) and np.array_equal(places, np.arange(len(names))):
-                matrix = np.ascontiguousarray(values.T)  # the only rig, as nearly always: no cell has to be looked for
-            else:
-                matrix[np.ix_(places, at)] = values.T
+            values = _UNPACK[column.family](b"".join(stored[row] for row in at.tolist()))
+            matrix = _placed(matrix, places, at, values.reshape(at.size, places.size).T)
     return [pa.array(values, from_pandas=bool(np.isnan(values).any())) for values in matrix]
+
+
+def _placed(matrix: NDArray[Any], places: NDArray[np.intp], at: NDArray[np.intp], values: NDArray[Any]) -> NDArray[Any]:
+    """Return a matrix with values of a rig's names in the rows of its faces."""
+    if at.size == matrix.shape[1] and np.array_equal(places, np.arange(len(matrix))):
+        return np.ascontiguousarray(values)  # the only rig, as nearly always: no cell has to be looked for
+    matrix[np.ix_(places, at)] = values
+    return matrix
