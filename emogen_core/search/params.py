@@ -12,6 +12,7 @@ from emogen_core.errors import InvalidInputError, expected
 if TYPE_CHECKING:
     from collections.abc import Collection
 
+    from emogen_core.face.geometry import Geometry
     from emogen_core.face.rig import Rig
 
 POPULATION = 10
@@ -48,6 +49,7 @@ class SearchParams:
         reset: a reset keeps the initial population, redraws it, or is not offered.
         fixed_population: ten genomes, only with "fixed".
         fixed_name: which one it is, where there are several; stands in the origin of its faces.
+        geometry: the genes as movements of the mesh, for strategies that compare faces; None without a rig.
     """
 
     gene_count: int
@@ -64,6 +66,7 @@ class SearchParams:
     reset: Literal["keep", "redraw", "off"] = "keep"
     fixed_population: tuple[Genome, ...] = ()
     fixed_name: str = ""
+    geometry: Geometry | None = None
 
     def __post_init__(self) -> None:
         """Refuse settings that the algorithm cannot run with."""
@@ -159,4 +162,4 @@ def search_params(
         if name in rig.emotion_sets
     )
     filled = tuple(face_set for face_set in sets if face_set.genes)
-    return SearchParams(len(rig.genes), active, filled, **options)  # type: ignore[arg-type]
+    return SearchParams(len(rig.genes), active, filled, geometry=rig.geometry, **options)  # type: ignore[arg-type]
