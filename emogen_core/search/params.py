@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 POPULATION = 10
 BLENDS = 3
 """Slots 1 to 3: the elite and the two averages."""
+RANDOM_GENES = 6
+"""x of the paper."""
 INITIAL_EMOTIONS = ("happy", "sad", "angry", "fearful")
 
 Genome = tuple[float, ...]
@@ -59,7 +61,7 @@ class SearchParams:
     minimum: int = 1
     maximum: int = POPULATION
     mutations: int = 2
-    random_genes: int = 6
+    random_genes: int = RANDOM_GENES
     random_faces: int = 4
     activation: tuple[int, int] = (3, 8)
     initialisation: Literal["protocol", "fixed"] = "protocol"
@@ -145,7 +147,7 @@ def search_params(
         gaze, lids: whether genes that turn the eyes, or close them, take part.
         lateral: whether genes that move the face sideways take part.
         excluded: names of further genes to leave out.
-        **options: fields of `SearchParams`.
+        **options: fields of `SearchParams`. Without `random_genes`, a search over fewer genes draws all of them.
 
     Raises:
         InvalidInputError: an unknown gene, or settings that the algorithm cannot run with.
@@ -162,4 +164,5 @@ def search_params(
         if name in rig.emotion_sets
     )
     filled = tuple(face_set for face_set in sets if face_set.genes)
+    options.setdefault("random_genes", min(RANDOM_GENES, len(active)))
     return SearchParams(len(rig.genes), active, filled, geometry=rig.geometry, **options)  # type: ignore[arg-type]

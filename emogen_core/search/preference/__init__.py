@@ -12,6 +12,6 @@ rounded to a grid of 2^-24 where a mean or a norm makes them. What is left to th
 decides comparisons only.
 """
 
-from emogen_core.search.preference.strategy import NAME, VERSION, ask, ask_ahead, init, mean_face, tell
+from emogen_core.search.preference.strategy import NAME, VERSION, ask, ask_ahead, estimate, init, mean_face, tell
 
-__all__ = ["NAME", "VERSION", "ask", "ask_ahead", "init", "mean_face", "tell"]
+__all__ = ["NAME", "VERSION", "ask", "ask_ahead", "estimate", "init", "mean_face", "tell"]

@@ -84,6 +84,11 @@ def mean_face(params: SearchParams, state: State) -> Floats:
     return np.asarray(face)
 
 
+def estimate(params: SearchParams, state: State) -> Floats | None:
+    """Return the (G,) mean face; None before the first answer."""
+    return mean_face(params, state) if state.sample else None
+
+
 @lru_cache(maxsize=REMEMBERED)
 def _told(params: SearchParams, state: State, choice: Choice) -> State:
     genomes = tuple(tuple(genome) for genome in ask(params, state).genes.tolist())
