@@ -84,8 +84,12 @@ class State:
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data; floats survive JSON bit for bit, the seed is text since it may exceed 2**53."""
-        empty = {name for name in LEARNING if not getattr(self, name)}
-        return {name: value for name, value in asdict(self).items() if name not in empty} | {"seed": str(self.seed)}
+        # Not by asdict, which copies every number of a long record.
+        told = {name: getattr(self, name) for name in self.__slots__ if name not in LEARNING} | {"seed": str(self.seed)}
+        told["choice"] = self.choice and asdict(self.choice)
+        if self.earlier:
+            told["earlier"] = [{"genomes": one.genomes, "choice": asdict(one.choice)} for one in self.earlier]
+        return told | ({"sample": self.sample} if self.sample else {})
 
     @classmethod
     def from_json(cls, data: Mapping[str, Any]) -> State:

@@ -1,4 +1,4 @@
-"""The strategies a study can name: modules with `NAME`, `VERSION`, `init`, `ask`, `ask_ahead`, `tell` and `estimate`."""
+"""The strategies a study can name: modules with `NAME`, `VERSION` and the functions of `Strategy`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tables of what happens: participations, trials, generations, faces, choices, estimates, events, ratings, responses, answers."""
+"""Tables of what happens: participations, trials, faces, choices, estimates, events, ratings, responses, answers."""
 
 from __future__ import annotations
 

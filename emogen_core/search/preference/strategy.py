@@ -1,8 +1,8 @@
 """The strategy on plain state: `tell` learns from a choice, `ask` makes the next ten faces of what was learned.
 
 The state keeps all faces that were shown, all choices, and the draws from the posterior. Learning is the slow part;
-since a server tells, asks and tells again, what was worked out last is kept, at most `REMEMBERED` results a process.
-Results do not depend on it.
+since a server tells, asks and tells again, what was worked out last is kept, at most `REMEMBERED` results a process and
+function. Results do not depend on it.
 """
 
 from __future__ import annotations
@@ -49,12 +49,7 @@ def ask(params: SearchParams, state: State) -> Population:
     """Return the population of `state.generation`; the same state gives the same bits."""
     if state.choice is None:
         return initial_population(params, state.seed, state.attempt)
-    elite = np.array(state.previous[state.choice.elite - 1])[list(params.active)]
-    rng = stream(state.seed, state.attempt, state.generation, PROPOSALS)
-    sample = from_rows(state.sample)
-    faces, origins = faces_of(_space(params), sample, elite, Turn(state.generation, params.generations), rng)
-    parents = tuple((state.choice.elite,) if origin in {"elite", "elite-draw"} else () for origin in origins)
-    return Population(_whole(params, faces), origins, parents)
+    return _shown(params, state, state.choice)
 
 
 def ask_ahead(params: SearchParams, state: State) -> dict[int, Floats]:
@@ -87,6 +82,18 @@ def mean_face(params: SearchParams, state: State) -> Floats:
 def estimate(params: SearchParams, state: State) -> Floats | None:
     """Return the (G,) mean face; None before the first answer."""
     return mean_face(params, state) if state.sample else None
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _shown(params: SearchParams, state: State, choice: Choice) -> Population:
+    elite = np.array(state.previous[choice.elite - 1])[list(params.active)]
+    rng = stream(state.seed, state.attempt, state.generation, PROPOSALS)
+    sample = from_rows(state.sample)
+    faces, origins = faces_of(_space(params), sample, elite, Turn(state.generation, params.generations), rng)
+    parents = tuple((choice.elite,) if origin in {"elite", "elite-draw"} else () for origin in origins)
+    genes = _whole(params, faces)
+    genes.flags.writeable = False  # shared by everyone who asks for them
+    return Population(genes, origins, parents)
 
 
 @lru_cache(maxsize=REMEMBERED)

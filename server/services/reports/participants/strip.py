@@ -61,7 +61,7 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Strip:
-    """An evolve trial: the attempt that counts, the ones before it, its finished face, and the search's own estimate."""
+    """An evolve trial: the attempt that counts, the ones before it, its finished face, the search's estimate."""
 
     rows: Sequence[Row]
     earlier: Sequence[Sequence[Row]]

@@ -165,8 +165,8 @@ _ALL = (
     ),
     Table(
         "estimates",
-        "What a search that weighs all answers takes for the face in mind at the end of a trial, a result beside the best"
-        " face; only of the strategy preference, one row a finished trial.",
+        "What a search that weighs all answers takes for the face in mind, one row a finished trial: a second result"
+        " beside its final face. The search of EmoGen 2021 has none.",
         ("trial",),
         (
             *WHO,
