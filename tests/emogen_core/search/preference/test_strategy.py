@@ -58,6 +58,14 @@ def test_ten_faces_within_range_of_which_the_first_is_the_elite(seed: int, histo
     assert preference.ask_ahead(params, state) == {}
 
 
+def test_faces_that_several_callers_share_cannot_be_changed() -> None:
+    params = space()
+    state = preference.tell(params, preference.init(params, 9), Choice((1, 2), 2))
+    shown = preference.ask(params, state)
+    with pytest.raises(ValueError, match="read-only"):
+        shown.genes[1, 0] = 0.5
+
+
 def test_the_first_ten_faces_are_those_of_every_strategy() -> None:
     for attempt in (0, 1):
         params = space(reset="redraw")
