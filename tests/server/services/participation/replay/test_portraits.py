@@ -53,7 +53,9 @@ def test_estimates_are_drawn_where_the_search_has_some(house, client, people, tm
 
     album = Album(Drawer(), house.journal.wardrobe)
     assert list(album.pictures(people, "estimates")) == []
-    names = [name for name, _ in album.pictures(ExportReplay(export, house.journal.wardrobe).participations(), "estimates")]
+    names = [
+        name for name, _ in album.pictures(ExportReplay(export, house.journal.wardrobe).participations(), "estimates")
+    ]
     rows = export.arrow("estimates").to_pylist()
     assert drawn == [row["portrait_key"] for row in rows]
     assert names == [f"{rows[0]['participation']}/{position:02d}-estimate.png" for position in range(3)]

@@ -178,7 +178,7 @@ def test_numbers_that_are_none_stay_as_typed_and_are_refused_in_words(form):
         ({"completion.redirects.full": ["http://x.org"]}, "Recruitment: full: expected an address that begins"),
         (
             {"search.strategy": ["preference"]},
-            "Starting faces: genes of a random face: expected 6, since it has no effect on the strategy preference; this",
+            "Starting faces: genes of a random face: expected 6, since it has no effect on the strategy preference",
         ),
     ],
 )  # fmt: skip
