@@ -35,7 +35,8 @@ def merged(known: Export | None, news: Export, folder: Path, place: Path) -> Non
         for beginning in (place, folder):
             (beginning / file["path"]).parent.mkdir(parents=True, exist_ok=True)
         if "table" in file:
-            old = folder / file["path"] if known is not None else None
+            # A folder that an earlier release began may lack a table.
+            old = folder / file["path"] if known is not None and file["table"] in known.tables else None
             rows = _merge_table(old, news.arrow(file["table"]), gone, path)
             files.append({"path": file["path"], "table": file["table"], "rows": rows, **_told(path)})
         else:

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from emogen_core.errors import InvalidInputError, expected
+from emogen_core.face.geometry import Geometry, gene_geometry
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -154,6 +155,11 @@ class Rig:
         for row, gene in enumerate(self.genes):
             matrix[row, [index[member] for member in gene.members]] = 1
         return matrix
+
+    @cached_property
+    def geometry(self) -> Geometry:
+        """The genes as movements of the mesh, as the rig itself has them; the same for all heads."""
+        return gene_geometry(self.gene_to_core, self.offsets)
 
     def emotion_genes(self, emotion: str, strength: float = 1.0) -> NDArray[np.float64]:
         """Return the (G,) genome of an emotion's prototype, all its weights times ``strength`` in [0, 1].

@@ -12,11 +12,14 @@ from emogen_core.errors import InvalidInputError, expected
 if TYPE_CHECKING:
     from collections.abc import Collection
 
+    from emogen_core.face.geometry import Geometry
     from emogen_core.face.rig import Rig
 
 POPULATION = 10
 BLENDS = 3
 """Slots 1 to 3: the elite and the two averages."""
+RANDOM_GENES = 6
+"""x of the paper."""
 INITIAL_EMOTIONS = ("happy", "sad", "angry", "fearful")
 
 Genome = tuple[float, ...]
@@ -48,6 +51,7 @@ class SearchParams:
         reset: a reset keeps the initial population, redraws it, or is not offered.
         fixed_population: ten genomes, only with "fixed".
         fixed_name: which one it is, where there are several; stands in the origin of its faces.
+        geometry: the genes as movements of the mesh, for strategies that compare faces; None without a rig.
     """
 
     gene_count: int
@@ -57,13 +61,14 @@ class SearchParams:
     minimum: int = 1
     maximum: int = POPULATION
     mutations: int = 2
-    random_genes: int = 6
+    random_genes: int = RANDOM_GENES
     random_faces: int = 4
     activation: tuple[int, int] = (3, 8)
     initialisation: Literal["protocol", "fixed"] = "protocol"
     reset: Literal["keep", "redraw", "off"] = "keep"
     fixed_population: tuple[Genome, ...] = ()
     fixed_name: str = ""
+    geometry: Geometry | None = None
 
     def __post_init__(self) -> None:
         """Refuse settings that the algorithm cannot run with."""
@@ -142,7 +147,7 @@ def search_params(
         gaze, lids: whether genes that turn the eyes, or close them, take part.
         lateral: whether genes that move the face sideways take part.
         excluded: names of further genes to leave out.
-        **options: fields of `SearchParams`.
+        **options: fields of `SearchParams`. Without `random_genes`, a search over fewer genes draws all of them.
 
     Raises:
         InvalidInputError: an unknown gene, or settings that the algorithm cannot run with.
@@ -159,4 +164,5 @@ def search_params(
         if name in rig.emotion_sets
     )
     filled = tuple(face_set for face_set in sets if face_set.genes)
-    return SearchParams(len(rig.genes), active, filled, **options)  # type: ignore[arg-type]
+    options.setdefault("random_genes", min(RANDOM_GENES, len(active)))
+    return SearchParams(len(rig.genes), active, filled, geometry=rig.geometry, **options)  # type: ignore[arg-type]

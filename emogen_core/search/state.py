@@ -10,13 +10,15 @@ import numpy as np
 from emogen_core.errors import InvalidInputError, expected
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping, Sequence
 
     from numpy.typing import NDArray
 
     from emogen_core.search.params import Genome, SearchParams
 
 STATE_VERSION = 1
+LEARNING = ("earlier", "sample")
+"""Fields that are in a record only if they hold something: those of strategies that learn from every choice."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +32,14 @@ class Choice:
     def others(self) -> tuple[int, ...]:
         """The selected slots without the elite, in rising order whatever the order of the clicks."""
         return tuple(sorted(set(self.selected) - {self.elite}))
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """A choice and the genomes of the ten faces on which it was made."""
+
+    genomes: tuple[Genome, ...]
+    choice: Choice
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +63,8 @@ class State:
         previous: genomes of the generation before, on which `choice` was made; empty at generation 0.
         choice: the last choice.
         version: of this record.
+        earlier: the answers before `choice`, for strategies that learn from all of them; else empty.
+        sample: what such a strategy believes after `choice`, in rows of numbers as it lays them out; else empty.
     """
 
     strategy: str
@@ -62,10 +74,22 @@ class State:
     previous: tuple[Genome, ...] = ()
     choice: Choice | None = None
     version: int = STATE_VERSION
+    earlier: tuple[Answer, ...] = ()
+    sample: tuple[Genome, ...] = ()
+
+    @property
+    def answers(self) -> tuple[Answer, ...]:
+        """All answers of this attempt that the state keeps, the last one last."""
+        return self.earlier if self.choice is None else (*self.earlier, Answer(self.previous, self.choice))
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data; floats survive JSON bit for bit, the seed is text since it may exceed 2**53."""
-        return {**asdict(self), "seed": str(self.seed)}
+        # Not by asdict, which copies every number of a long record.
+        told = {name: getattr(self, name) for name in self.__slots__ if name not in LEARNING} | {"seed": str(self.seed)}
+        told["choice"] = self.choice and asdict(self.choice)
+        if self.earlier:
+            told["earlier"] = [{"genomes": one.genomes, "choice": asdict(one.choice)} for one in self.earlier]
+        return told | ({"sample": self.sample} if self.sample else {})
 
     @classmethod
     def from_json(cls, data: Mapping[str, Any]) -> State:
@@ -76,15 +100,24 @@ class State:
         """
         if data.get("version") != STATE_VERSION:
             raise InvalidInputError(f"search state: {expected(f'version {STATE_VERSION}', data.get('version'))}")
-        choice = data["choice"]
         return cls(
             strategy=data["strategy"],
             seed=int(data["seed"]),
             attempt=data["attempt"],
             generation=data["generation"],
-            previous=tuple(tuple(genome) for genome in data["previous"]),
-            choice=choice and Choice(tuple(choice["selected"]), choice["elite"]),
+            previous=_genomes(data["previous"]),
+            choice=data["choice"] and _choice(data["choice"]),
+            earlier=tuple(Answer(_genomes(one["genomes"]), _choice(one["choice"])) for one in data.get("earlier", ())),
+            sample=_genomes(data.get("sample", ())),
         )
+
+
+def _genomes(rows: Iterable[Sequence[float]]) -> tuple[Genome, ...]:
+    return tuple(tuple(row) for row in rows)
+
+
+def _choice(data: Mapping[str, Any]) -> Choice:
+    return Choice(tuple(data["selected"]), data["elite"])
 
 
 def checked_choice(params: SearchParams, choice: Choice, count: int) -> Choice:

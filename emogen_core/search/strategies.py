@@ -1,11 +1,11 @@
-"""The strategies a study can name: modules with `NAME`, `VERSION`, `init`, `ask`, `ask_ahead` and `tell`."""
+"""The strategies a study can name: modules with `NAME`, `VERSION` and the functions of `Strategy`."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
 from emogen_core.errors import InvalidInputError, expected
-from emogen_core.search import emogen
+from emogen_core.search import emogen, preference
 
 if TYPE_CHECKING:
     import numpy as np
@@ -37,8 +37,12 @@ class Strategy(Protocol):
         """Return the state after a choice on those ten faces."""
         ...
 
+    def estimate(self, params: SearchParams, state: State) -> NDArray[np.float64] | None:
+        """Return the (G,) face that all answers together speak for; None where the strategy weighs no answers."""
+        ...
 
-STRATEGIES: dict[str, Strategy] = {emogen.NAME: emogen}
+
+STRATEGIES: dict[str, Strategy] = {emogen.NAME: emogen, preference.NAME: preference}
 
 
 def strategy(name: str) -> Strategy:

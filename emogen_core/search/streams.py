@@ -19,6 +19,10 @@ PLACES = 11
 """Stands where a slot would: the order on screen."""
 FIXED_OPTION = 12
 """Stands where a slot would: which of several fixed populations a trial begins with."""
+BELIEFS = 13
+"""Stands where a slot would: what is believed after the choice that made this generation."""
+PROPOSALS = 14
+"""Stands where a slot would: the candidates for all ten slots, where slots are picked together."""
 
 
 def stream(seed: int, attempt: int, generation: int, slot: int) -> np.random.Generator:

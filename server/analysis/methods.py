@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
+from emogen_core.search import preference
+
 from .telling import counted, listed
 
 if TYPE_CHECKING:
@@ -22,6 +24,8 @@ REFERENCES = {
     "Bridgeford et al., 2021": "Bridgeford, E. W., et al. (2021). Eliminating accidental deviations to minimize"
     " generalization error and maximize replicability. PLOS Computational Biology, 17, e1009279."
     " https://doi.org/10.1371/journal.pcbi.1009279",
+    "Brochu et al., 2007": "Brochu, E., de Freitas, N., & Ghosh, A. (2007). Active preference learning with discrete"
+    " choice data. Advances in Neural Information Processing Systems, 20, 409-416.",
     "Finn et al., 2015": "Finn, E. S., et al. (2015). Functional connectome fingerprinting: Identifying individuals"
     " using patterns of brain connectivity. Nature Neuroscience, 18, 1664-1671. https://doi.org/10.1038/nn.4135",
     "Kass & Raftery, 1995": "Kass, R. E., & Raftery, A. E. (1995). Bayes factors. Journal of the American Statistical"
@@ -119,7 +123,19 @@ def _search(context: Context, facts: Facts) -> str:
     return (
         f"Faces were found with EmoGen (Roubtsova et al., 2021; search {', '.join(facts.algorithms)}) on the face model"
         f" {facts.rig} ({len(context.rig.gene_names)} genes, {len(context.rig.shape_names)} blendshapes)."
-        f" {' '.join(told)}"
+        f"{_learning(facts.algorithms)} {' '.join(told)}"
+    )
+
+
+def _learning(algorithms: Sequence[str]) -> str:
+    """Return what is not the search of the paper, if anything is."""
+    learning = [name for name in algorithms if name.startswith(preference.NAME)]
+    if not learning:
+        return ""
+    return (
+        f" The search {', '.join(learning)} makes the next faces not by the genetic algorithm of that paper but by"
+        " Bayesian preference learning (Brochu et al., 2007): a posterior over sparse faces, given all choices of a"
+        " trial (Plackett-Luce). The faces analysed are those last chosen as best."
     )
 
 

@@ -25,7 +25,9 @@ app = typer.Typer()
 
 From = Annotated[Path, typer.Argument(metavar="EXPORT", help="A folder or zip of emogen export or of the Data page.")]
 Portraits = Annotated[Path | None, typer.Option(help="Folder for the portraits, drawn again as PNG.")]
-Faces = Annotated[Which, typer.Option("--faces", help="Of which: finished, best of every generation, or all.")]
+Faces = Annotated[
+    Which, typer.Option("--faces", help="Of which: finished, best of every generation, all, or estimates.")
+]
 Json = Annotated[bool, typer.Option("--json", help="Print what was found as JSON.")]
 
 

@@ -13,6 +13,7 @@ from sqlalchemy import ColumnElement, Select, String, and_, cast, func, literal,
 from .roster import KINDS
 from .runs_tables import (
     ChoiceRecord,
+    Estimate,
     Event,
     Face,
     Generation,
@@ -139,6 +140,20 @@ def _choices() -> Select[*tuple[Any, ...]]:
     return _of_generations(*columns).join(ChoiceRecord, ChoiceRecord.generation_id == Generation.id)
 
 
+def _estimates() -> Select[*tuple[Any, ...]]:
+    columns = (
+        *_WHO, *_TRIAL, Trial.attempt, Trial.generation, Estimate.identity, Participation.rig_hash,
+        Estimate.portrait_key, Estimate.genes, Estimate.weights, Estimate.collided_lips, Estimate.collided_teeth,
+        Estimate.depth_before.label("depth_before_mm"), Estimate.depth_after.label("depth_after_mm"),
+    )  # fmt: skip
+    return (
+        select(*columns)
+        .join(Trial, Trial.participation_id == Participation.id)
+        .join(Estimate, Estimate.trial_id == Trial.id)
+        .order_by(Participation.number, Trial.position)
+    )
+
+
 def _events() -> Select[*tuple[Any, ...]]:
     columns = (
         Event.id.label("event"), Event.type, Event.at_ms, Event.duration_ms, Event.face_id.label("face"),
@@ -194,6 +209,7 @@ QUERIES = {
     "generations": _generations,
     "faces": _faces,
     "choices": _choices,
+    "estimates": _estimates,
     "events": _events,
     "ratings": _ratings,
     "stimuli": _stimuli,

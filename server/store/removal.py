@@ -10,7 +10,7 @@ from .admin_tables import ApiToken
 from .analyses_tables import Analysis
 from .export_tables import Receipt, StudyRevision
 from .runs import erase_all
-from .runs_tables import Face, Generation, Participation, Stimulus, Trial
+from .runs_tables import Estimate, Face, Generation, Participation, Stimulus, Trial
 from .studies_tables import Link, Study, StudyVersion
 
 if TYPE_CHECKING:
@@ -42,10 +42,12 @@ def lock_people(tx: Tx, study_id: str) -> Sequence[str]:
 
 
 def portraits_of(tx: Tx, study_id: str) -> set[str]:
-    """Return the portraits of all faces that anybody saw in a study."""
+    """Return the portraits of all faces that anybody saw in a study, and of those that were estimated."""
     offered = select(Face.portrait_key).join(Generation, Generation.id == Face.generation_id)
     judged = select(Stimulus.portrait_key).where(Stimulus.trial_id.in_(_trials(study_id)))
-    return {*tx.scalars(offered.where(Generation.trial_id.in_(_trials(study_id)))), *tx.scalars(judged)}
+    estimated = select(Estimate.portrait_key).where(Estimate.trial_id.in_(_trials(study_id)))
+    shown = offered.where(Generation.trial_id.in_(_trials(study_id)))
+    return {*tx.scalars(shown), *tx.scalars(judged), *tx.scalars(estimated)}
 
 
 def delete_study(tx: Tx, study_id: str) -> None:

@@ -18,6 +18,7 @@ from sqlalchemy.orm import Session
 from .export_tables import StudyRevision
 from .runs_tables import (
     ChoiceRecord,
+    Estimate,
     Event,
     Face,
     Generation,
@@ -31,7 +32,7 @@ from .runs_tables import (
 if TYPE_CHECKING:
     from sqlalchemy.orm import sessionmaker
 
-EXPORTED = (Participation, Trial, Generation, Face, ChoiceRecord, Event, Rating, Stimulus, Response)
+EXPORTED = (Participation, Trial, Generation, Face, ChoiceRecord, Estimate, Event, Rating, Stimulus, Response)
 _CHANGED = "changed rows"
 
 

@@ -7,7 +7,19 @@ from typing import TYPE_CHECKING, Any
 
 from sqlalchemy import String, and_, cast, func, or_, select
 
-from .runs_tables import Answer, ChoiceRecord, Event, Face, Generation, Participation, Rating, Response, Stimulus, Trial
+from .runs_tables import (
+    Answer,
+    ChoiceRecord,
+    Estimate,
+    Event,
+    Face,
+    Generation,
+    Participation,
+    Rating,
+    Response,
+    Stimulus,
+    Trial,
+)
 from .standing import is_here, is_quiet
 from .studies_tables import Study, StudyVersion
 
@@ -132,11 +144,13 @@ def found_people(tx: Tx, number: int | None, words: str, limit: int) -> Sequence
 
 
 def portrait_keys(tx: Tx, participation_id: str) -> set[str]:
-    """Return the portraits of the faces that somebody saw."""
+    """Return the portraits of the faces that somebody saw, and of those that were estimated for them."""
     trials = select(Trial.id).where(Trial.participation_id == participation_id)
     offered = select(Face.portrait_key).join(Generation, Generation.id == Face.generation_id)
+    shown = offered.where(Generation.trial_id.in_(trials))
     judged = select(Stimulus.portrait_key).where(Stimulus.trial_id.in_(trials))
-    return {*tx.scalars(offered.where(Generation.trial_id.in_(trials))), *tx.scalars(judged)}
+    estimated = select(Estimate.portrait_key).where(Estimate.trial_id.in_(trials))
+    return {*tx.scalars(shown), *tx.scalars(judged), *tx.scalars(estimated)}
 
 
 def named_portraits(tx: Tx, keys: Collection[str]) -> set[str]:
@@ -145,8 +159,8 @@ def named_portraits(tx: Tx, keys: Collection[str]) -> set[str]:
     rest = sorted(keys)
     for start in range(0, len(rest), _AT_ONCE):
         some = rest[start : start + _AT_ONCE]
-        found.update(tx.scalars(select(Face.portrait_key).where(Face.portrait_key.in_(some))))
-        found.update(tx.scalars(select(Stimulus.portrait_key).where(Stimulus.portrait_key.in_(some))))
+        for table in (Face, Stimulus, Estimate):
+            found.update(tx.scalars(select(table.portrait_key).where(table.portrait_key.in_(some))))
     return found
 
 

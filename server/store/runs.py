@@ -10,6 +10,7 @@ from sqlalchemy.exc import IntegrityError
 from .runs_tables import (
     Answer,
     ChoiceRecord,
+    Estimate,
     Event,
     Face,
     Generation,
@@ -205,7 +206,7 @@ def simulated_faces(tx: Tx, ids: Collection[str], study_id: str | None) -> Seque
     return tx.scalars(query if study_id is None else query.where(Participation.study_id == study_id)).all()
 
 
-def portrait_row(tx: Tx, key: str) -> tuple[Face | Stimulus, Participation] | None:
+def portrait_row(tx: Tx, key: str) -> tuple[Face | Stimulus | Estimate, Participation] | None:
     """Return a face that has this portrait, and a participation whose study says how it is drawn."""
     offered = (
         select(Face, Participation)
@@ -220,11 +221,28 @@ def portrait_row(tx: Tx, key: str) -> tuple[Face | Stimulus, Participation] | No
         .join(Participation, Participation.id == Trial.participation_id)
         .where(Stimulus.portrait_key == key)
     )
-    for query in (offered, judged):
+    estimated = (
+        select(Estimate, Participation)
+        .join(Trial, Trial.id == Estimate.trial_id)
+        .join(Participation, Participation.id == Trial.participation_id)
+        .where(Estimate.portrait_key == key)
+    )
+    for query in (offered, judged, estimated):
         row = tx.execute(query.limit(1)).first()
         if row is not None:
             return row[0], row[1]
     return None
+
+
+def estimate(tx: Tx, trial_id: str) -> Estimate | None:
+    """Return what the search took for the face in mind at the end of a trial."""
+    return tx.get(Estimate, trial_id)
+
+
+def estimates(tx: Tx, participation_id: str) -> Sequence[Estimate]:
+    """Return what the search took for the faces in mind of a participation, in no order."""
+    query = select(Estimate).join(Trial, Trial.id == Estimate.trial_id)
+    return tx.scalars(query.where(Trial.participation_id == participation_id)).all()
 
 
 def answer(tx: Tx, participation_id: str, answer_id: str) -> Answer | None:
@@ -295,6 +313,7 @@ def erase_all(tx: Tx, which: Select[str]) -> None:
     for statement in (
         delete(Event).where(Event.participation_id.in_(which)),
         delete(Answer).where(Answer.participation_id.in_(which)),
+        delete(Estimate).where(Estimate.trial_id.in_(its_trials)),
         delete(Rating).where(Rating.trial_id.in_(its_trials)),
         delete(Response).where(Response.trial_id.in_(its_trials)),
         delete(Stimulus).where(Stimulus.trial_id.in_(its_trials)),

@@ -1,4 +1,4 @@
-"""Tables of what happens: participations, trials, generations, faces, choices, events, ratings, responses, answers."""
+"""Tables of what happens: participations, trials, faces, choices, estimates, events, ratings, responses, answers."""
 
 from __future__ import annotations
 
@@ -145,6 +145,25 @@ class ChoiceRecord(Base):
     tile_width: Mapped[float | None]
     tile_height: Mapped[float | None]
     input: Mapped[str | None]
+
+
+class Estimate(Base):
+    """What a search that weighs all answers takes for the face in mind, after the last choice of a trial.
+
+    Nobody was shown it. The columns are as in `Face`.
+    """
+
+    __tablename__ = "estimates"
+
+    trial_id: Mapped[str] = mapped_column(ForeignKey("trials.id"), primary_key=True)
+    identity: Mapped[str]
+    genes: Mapped[bytes]
+    weights: Mapped[bytes]
+    portrait_key: Mapped[str] = mapped_column(index=True)
+    collided_lips: Mapped[bool | None]
+    collided_teeth: Mapped[bool | None]
+    depth_before: Mapped[float | None]
+    depth_after: Mapped[float | None]
 
 
 class Event(Base):

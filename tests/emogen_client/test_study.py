@@ -110,6 +110,19 @@ def test_columns_of_another_face_model_are_added(study, made, tmp_path):
     assert len(found) > len(table)
 
 
+def test_a_table_that_an_earlier_release_did_not_have_is_added(study, made, tmp_path):
+    study.update(tmp_path)
+    manifest = json.loads((tmp_path / "manifest.json").read_text())
+    manifest["files"] = [file for file in manifest["files"] if file.get("table") != "estimates"]
+    (tmp_path / "manifest.json").write_text(json.dumps(manifest))
+    (tmp_path / "estimates.parquet").unlink()
+    made[1][2].finish(steps=5)
+    found = study.update(tmp_path)
+    found.verify()
+    assert set(found.tables) == set(TABLES)
+    assert len(found.arrow("estimates")) == 0
+
+
 def test_an_interrupted_download_is_noticed_and_leaves_nothing(cut, study, tmp_path):
     with pytest.raises(IncompleteError, match="SHA-256"):
         cut.table("faces")

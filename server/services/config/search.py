@@ -12,22 +12,32 @@ Probability = Annotated[float, Field(ge=0, lt=1)]
 Population = tuple[tuple[Probability, ...], ...]
 
 
+PAPER_ONLY = "Only the strategy of EmoGen 2021 has them."
+BREEDING = ("mutations", "random_genes", "random_faces")
+"""Options that only that strategy has."""
+
+
 class Search(Part):
     """How the next ten faces are made from a choice."""
 
-    strategy: Literal["emogen"] = option(
+    strategy: Literal["emogen", "preference"] = option(
         "emogen",
         "Strategy",
-        "How a choice becomes the next ten faces. emogen is the algorithm of EmoGen 2021.",
+        "How a choice becomes the next ten faces. emogen: bred from the faces just chosen, as in EmoGen 2021."
+        " preference: all choices of a trial together say which faces may be meant, and those are shown whose"
+        " comparison tells most. Its own estimate of the face is stored beside the best one.",
         paper="emogen",
     )
-    mutations: int = option(2, "Mutations", "m: how many genes of a bred face are drawn anew.", paper="2", ge=0, le=20)
+    mutations: int = option(
+        2, "Mutations", f"m: how many genes of a bred face are drawn anew. {PAPER_ONLY}", paper="2", ge=0, le=20
+    )
     random_genes: int = option(
-        6, "Genes of a random face", "x: how many genes a random face draws.", paper="6", ge=1, le=50
+        6, "Genes of a random face", f"x: how many genes a random face draws. {PAPER_ONLY}", paper="6", ge=1, le=50
     )
     random_faces: int = option(
-        4, "Random faces", "How many of the ten are drawn afresh each generation.", paper="4", ge=0, le=7
-    )
+        4, "Random faces", f"How many of the ten are drawn afresh each generation. {PAPER_ONLY}",
+        paper="4", ge=0, le=7,
+    )  # fmt: skip
     activation: tuple[int, int] = option(
         (3, 8),
         "Active genes at the start",

@@ -14,7 +14,7 @@ from .base import Language, Line, Part, misfit, moved, option, together
 from .blocks import Block, Categorise, Evolve, Order, Rate
 from .conditions import FIXED, Condition, in_condition
 from .parts import Completion, Devices, Emotion, Head, Portrait, Question, Texts, Translation
-from .search import Search
+from .search import BREEDING, Search
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -100,7 +100,7 @@ class StudyConfig(Part):
 
     @model_validator(mode="after")
     def _fits_together(self) -> Self:
-        checks = (_numbers, _emotions, _blocks, _languages)
+        checks = (_numbers, _search, _emotions, _blocks, _languages)
         found = [one for check in checks for one in check(self)]
         # Every condition would only repeat what is wrong with the study itself.
         found = found or list(_conditions(self))
@@ -154,6 +154,17 @@ def _numbers(study: StudyConfig) -> Iterator[ValidationError]:
         yield misfit("minimum", expected=f"at most the maximum {study.maximum}", got=study.minimum)
     if len(set(study.ratings)) != len(study.ratings):
         yield misfit("ratings", expected="each question once", got=", ".join(study.ratings))
+
+
+def _search(study: StudyConfig) -> Iterator[ValidationError]:
+    """Refuse options that would have no effect."""
+    if study.search.strategy == "emogen":
+        return
+    for name in BREEDING:
+        usual, got = Search.model_fields[name].default, getattr(study.search, name)
+        if got != usual:
+            expected = f"{usual}, since it has no effect on the strategy {study.search.strategy}"
+            yield misfit("search", name, expected=expected, got=got)
 
 
 def _emotions(study: StudyConfig) -> Iterator[ValidationError]:

@@ -1,4 +1,4 @@
-"""Corrects what an answer will put on the screen before its write transaction begins.
+"""Corrects what an answer will put on the screen, or store, before its write transaction begins.
 
 Separating lips and teeth takes milliseconds a face, and looking through the faces of everybody takes more: too long to
 keep other writers waiting. So the step is taken once on what a read transaction saw, without storing anything; the
@@ -45,7 +45,7 @@ def rehearse(journal: Journal, token: str, body: AnswerBody) -> dict[tuple[str, 
 
 
 def _following(walk: Walk, body: AnswerBody) -> Faces:
-    """Return the faces that this answer may put on the screen: those of this trial, or else those of the next one."""
+    """Return the faces that this answer may need: those of this trial, or else of its end and of the next one."""
     position = walk.participation.position
     if isinstance(body, InstructionsAnswer):
         return _first(walk, 0)
@@ -53,8 +53,10 @@ def _following(walk: Walk, body: AnswerBody) -> Faces:
     if trial is None or trial.id != trial_of(body):
         return []
     walk.ending = trial.id
+    kind = type_of(trial)
     try:
-        return type_of(trial).rehearsed(walk, trial, body) or _first(walk, position + 1)
+        faces = kind.rehearsed(walk, trial, body)
+        return faces or [*kind.concluded(walk, trial, body), *_first(walk, position + 1)]
     except EmogenError:
         return []
 

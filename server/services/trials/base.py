@@ -48,6 +48,10 @@ class TrialType(Protocol):
         """Return the faces that an answer will put on the screen, or without one those that the trial begins with."""
         ...
 
+    def concluded(self, walk: Walk, trial: Trial, body: AnswerBody) -> Faces:
+        """Return the faces that an answer which ends the trial has stored but not shown."""
+        ...
+
     def played(self, told: Mapping[str, Any]) -> dict[str, Any]:
         """Return the answer of a simulated participant to a state, but for what needs a face in mind."""
         ...

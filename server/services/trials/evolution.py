@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from emogen_core.errors import InvalidInputError
 from emogen_core.rendering.protocol import RenderSettings
-from emogen_core.search import Choice, Population, SearchParams, State, Strategy, place_order, strategy
+from emogen_core.search import Choice, Population, SearchParams, State, Strategy, emogen, place_order, strategy
 from emogen_core.search.params import search_params
 from emogen_core.search.streams import option_of
 
-from ...store.runs_tables import Face, Generation
+from ...store.runs_tables import Estimate, Face, Generation
 from ..clock import new_id, now
+from ..config.search import BREEDING
 from ..errors import InvalidError
 from ..faces.sketch import Sketch, pack_genes, pack_weights, settings_of
 
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
 
     from ...store.runs_tables import Trial
     from ..config import StudyConfig
-    from ..faces.correction import Correction
+    from ..faces.correction import CorrectedFace, Correction
 
 
 SLOTS = 10
@@ -66,9 +67,7 @@ def params_of(rig: Rig, config: StudyConfig, state: State | None = None) -> Sear
             generations=config.generations,
             minimum=1,
             maximum=config.maximum,
-            mutations=search.mutations,
-            random_genes=search.random_genes,
-            random_faces=search.random_faces,
+            **_breeding(config),
             activation=search.activation,
             initialisation=search.initialisation,
             fixed_population=population,
@@ -77,6 +76,12 @@ def params_of(rig: Rig, config: StudyConfig, state: State | None = None) -> Sear
         )
     except InvalidInputError as error:
         raise InvalidError(f"The study does not fit the face model: {error}.", field="search") from error
+
+
+def _breeding(config: StudyConfig) -> dict[str, int]:
+    """Return the options that only the paper's search has, for it."""
+    search = config.search
+    return {name: getattr(search, name) for name in BREEDING} if search.strategy == emogen.NAME else {}
 
 
 def simulated(rig: Rig, config: StudyConfig) -> tuple[SearchParams, NDArray[np.float64] | None]:
@@ -150,6 +155,26 @@ class Evolution:
         population = self._strategy.ask(self._params(state), state)
         return generation, self._faces(trial, generation, population, self.places(state))
 
+    def estimate(self, trial: Trial, state: State) -> Estimate | None:
+        """Return the row of the face that all answers of `state` speak for; None where the search weighs none."""
+        genes = self._strategy.estimate(self._params(state), state)
+        if genes is None:
+            return None
+        (made,) = self.correction.faces(trial.identity, [genes])
+        return Estimate(
+            trial_id=trial.id,
+            identity=trial.identity,
+            genes=pack_genes(genes),
+            weights=pack_weights(made.weights),
+            portrait_key=self.key_of(trial.identity, made.weights, settings_of(self.config)),
+            **_collision(made),
+        )
+
+    def estimated(self, trial: Trial, state: State) -> list[tuple[str, NDArray[np.float64]]]:
+        """Return head and genes of that face; nothing where there is none."""
+        genes = self._strategy.estimate(self._params(state), state)
+        return [] if genes is None else [(trial.identity, genes)]
+
     def places(self, state: State) -> tuple[int, ...]:
         """Return the slots in the order of their places on the screen."""
         if self.config.places == "fixed":
@@ -206,10 +231,7 @@ class Evolution:
                 genes=pack_genes(population.genes[slot - 1]),
                 weights=pack_weights(one.weights),
                 portrait_key=self.key_of(trial.identity, one.weights, settings),
-                collided_lips=one.collision.lips,
-                collided_teeth=one.collision.teeth,
-                depth_before=one.collision.before,
-                depth_after=one.collision.after,
+                **_collision(one),
             )
             for slot, one in enumerate(made, start=1)
         ]
@@ -217,3 +239,14 @@ class Evolution:
     def _sketches(self, trial: Trial, genes: list[NDArray[np.float64]]) -> list[Sketch]:
         settings = settings_of(self.config)
         return [Sketch(trial.identity, one.weights, settings) for one in self.correction.faces(trial.identity, genes)]
+
+
+def _collision(made: CorrectedFace) -> dict[str, Any]:
+    """Return what collided, by the names of its columns."""
+    found = made.collision
+    return {
+        "collided_lips": found.lips,
+        "collided_teeth": found.teeth,
+        "depth_before": found.before,
+        "depth_after": found.after,
+    }

@@ -32,7 +32,7 @@ class _Evolve:
         "evolve": frozenset({"choice", "reset"}),
         "rating": frozenset({"rating"}),
     }
-    WRITES: ClassVar[tuple[str, ...]] = ("generations", "faces", "choices", "events", "ratings")
+    WRITES: ClassVar[tuple[str, ...]] = ("generations", "faces", "choices", "estimates", "events", "ratings")
 
     def enter(self, walk: Walk, trial: Trial) -> bool:
         walk.participation.step = "practice" if trial.practice else "evolve"
@@ -58,6 +58,10 @@ class _Evolve:
     def rehearsed(self, walk: Walk, trial: Trial, body: AnswerBody | None) -> Faces:
         state = walk.evolution.begin(trial, 0) if body is None else _following(walk, trial, body)
         return [] if state is None else walk.evolution.asked(trial, state)
+
+    def concluded(self, walk: Walk, trial: Trial, body: AnswerBody) -> Faces:
+        told = _told(walk, trial, body) if _final(walk, trial) else None
+        return [] if told is None else walk.evolution.estimated(trial, walk.evolution.tell(trial, *told))
 
     def played(self, told: Mapping[str, Any]) -> dict[str, Any]:
         rating = told["rating"]
@@ -133,8 +137,7 @@ def _check_step(walk: Walk, trial: Trial, body: AnswerBody) -> None:
 
 def _bounds(walk: Walk, trial: Trial) -> tuple[int, int]:
     """Return the least and the most faces that may be chosen now; only the best matters in the last generation."""
-    final = trial.generation >= last_generation(walk.config, trial)
-    return (1 if final else walk.config.minimum), walk.config.maximum
+    return (1 if _final(walk, trial) else walk.config.minimum), walk.config.maximum
 
 
 def _may_reset(walk: Walk, trial: Trial) -> bool:
@@ -151,11 +154,16 @@ def _choice(walk: Walk, trial: Trial, body: ChoiceAnswer) -> None:
     _check_choice(_bounds(walk, trial), faces, body)
     elite = faces[body.elite]
     runs.add(walk.tx, _record(elite.generation_id, body, none_is_close=_none_is_close(walk, body)))
-    if trial.generation < last_generation(walk.config, trial):
-        slots = [faces[face].slot for face in body.selected]
-        _offer(walk, trial, walk.evolution.tell(trial, slots, elite.slot))
+    slots = [faces[face].slot for face in body.selected]
+    state = walk.evolution.tell(trial, slots, elite.slot)
+    if not _final(walk, trial):
+        _offer(walk, trial, state)
         return
+    estimate = walk.evolution.estimate(trial, state)
+    if estimate is not None:
+        runs.add(walk.tx, estimate)
     trial.final_face_id, trial.ended_at = elite.id, now()
+    trial.state = None  # the next ten faces would be made of it; what led here is in the rows of faces and choices
     if walk.config.ratings and not trial.practice:
         walk.participation.step = "rating"
     else:
@@ -257,14 +265,25 @@ def _rating(walk: Walk, trial: Trial, body: RatingAnswer) -> None:
 
 def _following(walk: Walk, trial: Trial, body: AnswerBody) -> State | None:
     """Return the state that an answer leads to within this trial, if it does."""
-    if not isinstance(body, (ChoiceAnswer, ResetAnswer)):
-        return None
-    if (trial.attempt, trial.generation) != (body.attempt, body.generation):
-        return None
     if isinstance(body, ResetAnswer):
-        return walk.evolution.begin(trial, trial.attempt + 1)
-    slots = {face.id: face.slot for face in runs.faces_on_screen(walk.tx, trial)}
-    final = trial.generation >= last_generation(walk.config, trial)
-    if final or body.elite not in slots or not set(body.selected) <= set(slots):
+        return walk.evolution.begin(trial, trial.attempt + 1) if _current(trial, body) else None
+    told = None if _final(walk, trial) else _told(walk, trial, body)
+    return None if told is None else walk.evolution.tell(trial, *told)
+
+
+def _told(walk: Walk, trial: Trial, body: AnswerBody) -> tuple[list[int], int] | None:
+    """Return the slots that a choice among the faces on the screen names, and that of the best; None for all else."""
+    if not isinstance(body, ChoiceAnswer) or not _current(trial, body):
         return None
-    return walk.evolution.tell(trial, [slots[face] for face in body.selected], slots[body.elite])
+    slots = {face.id: face.slot for face in runs.faces_on_screen(walk.tx, trial)}
+    if body.elite not in slots or not set(body.selected) <= set(slots):
+        return None
+    return [slots[face] for face in body.selected], slots[body.elite]
+
+
+def _current(trial: Trial, body: ChoiceAnswer | ResetAnswer) -> bool:
+    return trial.ended_at is None and (trial.attempt, trial.generation) == (body.attempt, body.generation)
+
+
+def _final(walk: Walk, trial: Trial) -> bool:
+    return trial.generation >= last_generation(walk.config, trial)

@@ -91,6 +91,10 @@ class Items(ABC):
         """Return the faces to correct ahead: none, unless there are faces to be made."""
         return []
 
+    def concluded(self, walk: Walk, trial: Trial, body: AnswerBody) -> Faces:  # noqa: ARG002
+        """Return none: all that is stored was shown."""
+        return []
+
     def played(self, told: Mapping[str, Any]) -> dict[str, Any]:
         """Return an acceptable answer."""
         item = told["item"]

@@ -5,8 +5,10 @@ from __future__ import annotations
 import pytest
 
 from emogen_core.errors import InvalidInputError
-from emogen_core.search import STRATEGIES, strategy
+from emogen_core.search import STRATEGIES, Choice, strategy
+from emogen_core.search.params import search_params
 from tests.emogen_core.search.space import GENES, space
+from tests.rig_factory import small_rig
 
 
 @pytest.mark.parametrize(
@@ -38,3 +40,22 @@ def test_unknown_strategy_lists_the_known_ones() -> None:
     with pytest.raises(InvalidInputError, match="emogen"):
         strategy("simulated annealing")
     assert all(name == strategy(name).NAME for name in STRATEGIES)
+
+
+def test_a_search_over_few_genes_draws_all_of_them_unless_it_says_how_many() -> None:
+    rig = small_rig()
+    few = rig.gene_names[4:]
+    assert search_params(rig).random_genes == 6
+    assert search_params(rig, excluded=few).random_genes == 4
+    with pytest.raises(InvalidInputError, match="random_genes"):
+        search_params(rig, excluded=few, random_genes=6)
+
+
+@pytest.mark.parametrize("name", STRATEGIES)
+def test_only_what_weighs_all_answers_has_an_estimate_and_not_before_the_first(name: str) -> None:
+    search, params = strategy(name), space()
+    state = search.init(params, 5)
+    assert search.estimate(params, state) is None
+    face = search.estimate(params, search.tell(params, state, Choice((2, 3), 2)))
+    assert (face is not None) == (name == "preference")
+    assert face is None or (face.shape == (GENES,) and face.any() and ((face >= 0) & (face < 1)).all())

@@ -74,6 +74,18 @@ def test_one_participant_without_script(owner, base, walker):  # noqa: F811
     assert owner.get(f"{base}/0?trial=77").status_code == 404
 
 
+def test_the_search_s_own_estimate_is_shown_and_every_origin_explained(owner, house):  # noqa: F811
+    study = house.studies.create(small_study(search={"strategy": "preference", "activation": (2, 3)}))
+    Walker(owner, study.links[0]).finish()
+    page = owner.get(f"/admin/studies/{study.id}/participants/0")
+    (path,) = re.findall(r'src="([^"]+)"[^>]* alt="The search’s own estimate', page.text)
+    assert owner.get(path).headers["content-type"] == "image/png"
+    used = set(re.findall(r'<span class="origin">([a-z]+)<', page.text))
+    explained = set(re.findall(r"<p><b>([a-z]+)</b>", page.text))
+    assert used == explained
+    assert "estimate" in used
+
+
 def test_every_trial_can_be_shown(owner, base, walker):  # noqa: F811
     page = owner.get(f"{base}/0")
     tabs = re.findall(rf'href="({base}/0\?trial=\d+)"', page.text)

@@ -115,3 +115,13 @@ def test_of_several_searches_it_is_said_which_condition_had_which():
     assert "With 3 generations" in methods(one, sections(one), FACTS)[1]
     text = methods(two, sections(two), FACTS)[1]
     assert "In the condition alone, with 3" in text and "In the condition together, with 3" in text
+
+
+def test_a_search_that_is_not_the_paper_s_says_so_and_cites_its_own():
+    told = context(made(template(1), 6))
+    both = replace(FACTS, algorithms=("emogen/1", "preference/1"))
+    text, before = (" ".join(methods(told, [], facts)) for facts in (both, FACTS))
+    assert "search emogen/1, preference/1" in text
+    assert "The search preference/1 makes the next faces not by the genetic algorithm" in text
+    assert REFERENCES["Brochu et al., 2007"] in text
+    assert "Brochu" not in before

@@ -6,6 +6,8 @@ import zipfile
 
 import pytest
 
+from server.services.config.files import write_study
+from tests.conftest import small_study
 from tests.server.cli.running import emogen
 
 
@@ -63,3 +65,19 @@ def test_what_is_no_export_is_one_sentence(tmp_path, name):
     assert done.returncode == 1
     assert "manifest.json" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_a_search_that_learns_replays_in_another_process_with_its_estimates(tmp_path):
+    data, path = tmp_path / "data", tmp_path / "learned.zip"
+    study = small_study(generations=3, search={"strategy": "preference"})
+    (tmp_path / "study.yaml").write_text(write_study(study), encoding="utf-8")
+    made = emogen(data, "study", "create", str(tmp_path / "study.yaml"), "--status", "recruiting")
+    assert made.returncode == 0, made.stderr
+    name = made.stdout.strip()
+    for words in (("simulate", "--study", name, "--seed", "4"), ("export", "--study", name, "--out", str(path))):
+        assert emogen(data, *words).returncode == 0
+    done = emogen(tmp_path, "replay", str(path), "--portraits", str(tmp_path / "pictures"), "--faces", "estimates")
+    assert done.returncode == 0, done.stderr
+    assert f"Replayed bit for bit: {1 + 2 * 4} generations." in done.stdout
+    names = {file.name for file in (tmp_path / "pictures").rglob("*.png")}
+    assert names == {f"{position:02d}-estimate.png" for position in range(3)}

@@ -8,7 +8,7 @@ from sqlalchemy import select  # noqa: TID251
 
 from server.store import revisions, runs
 from server.store.revisions import EXPORTED
-from server.store.runs_tables import Event, Face, Generation, Participation, Rating, Stimulus, Trial
+from server.store.runs_tables import Estimate, Event, Face, Generation, Participation, Rating, Stimulus, Trial
 from tests.conftest import BOTH, small_study
 from tests.server.walker import Walker
 
@@ -86,6 +86,7 @@ def test_a_row_of_every_table_marks_its_participation(house, study, walkers, kin
                 at_ms=1, **plain,
             ),
             "Rating": lambda: Rating(trial_id=trial.id, question="intensity", value=3, **plain),
+            "Estimate": lambda: Estimate(trial_id=trial.id, identity="", genes=b"", weights=b"", portrait_key=""),
             "Stimulus": lambda: Stimulus(
                 id="s", trial_id=trial.id, item=9, source="own", name="", emotion="", identity="", made_from=[],
                 genes=b"", weights=b"", portrait_key="",

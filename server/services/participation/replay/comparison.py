@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from emogen_core.search import Choice, State, strategy
 
 from ...faces.correction import Correction
-from ...faces.sketch import unpack_genes, unpack_weights
 from ...trials.evolution import SLOTS, Evolution, params_of
 from ...trials.evolve import last_generation
 from ..plan import trial_seed
+from .alike import MADE, different
 from .planned import unplanned
 from .recorded import Difference, Replayed
 
@@ -30,11 +28,6 @@ if TYPE_CHECKING:
 
     Found = tuple[int | None, str, str, str]
     """Slot, what, expected, got."""
-
-
-ROUNDING = 1e-5
-"""Within this, weights and depths in millimetres are the same: another processor's algebra rounds the last bits of the
-collision stage otherwise. Genes, which all of the search follows from, are compared bit for bit."""
 
 
 @dataclass(frozen=True)
@@ -71,10 +64,11 @@ class Comparison:
     def _trial(self, recorded: Recorded, trial: Trial, shown: Shown) -> Iterator[Difference | None]:
         """Yield for every generation what is different in it, and what is in the trial before and after them."""
         yield from _amiss(trial, "seed", trial_seed(int(recorded.seed), trial.position), trial.seed)
-        yield from self._generations(recorded.config, trial, shown)
+        yield from self._generations(recorded, trial, shown)
         yield from _ending(recorded, trial, shown)
 
-    def _generations(self, config: StudyConfig, trial: Trial, shown: Shown) -> Iterator[Difference | None]:
+    def _generations(self, recorded: Recorded, trial: Trial, shown: Shown) -> Iterator[Difference | None]:
+        config = recorded.config
         search, state = strategy(config.search.strategy), None
         for generation, faces, choice in shown:
             if state is None or generation.attempt != state.attempt:
@@ -84,6 +78,21 @@ class Comparison:
             yield Difference(*place, *found) if found else None
             if choice is not None:
                 state = search.tell(params_of(self.rig, config, state), state, _told(faces, choice))
+        yield from self._estimate(recorded, trial, state)
+
+    def _estimate(self, recorded: Recorded, trial: Trial, state: State | None) -> Iterator[Difference]:
+        """Yield what is wrong with the face that the search itself took for the one in mind when all was answered."""
+        config, got = recorded.config, recorded.estimates.get(trial.id)
+        made = None
+        if state is not None and state.generation > last_generation(config, trial):
+            made = self._evolution(config).estimate(trial, state)
+        yield from _amiss(trial, "estimate", "one" if made else "none", "one" if got else "none")
+        if made and got:
+            found = different(self.rig, made, got, ("identity", *MADE))
+            yield from _amiss(trial, f"estimate, {found[0]}", *found[1:]) if found else ()
+
+    def _evolution(self, config: StudyConfig) -> Evolution:
+        return Evolution(self.rig, config, self._correction, lambda *_: "")
 
     def _compare(
         self, trial: Trial, config: StudyConfig, state: State, recorded: tuple[Generation, Sequence[Face]]
@@ -91,44 +100,16 @@ class Comparison:
         generation, faces = recorded
         if generation.number != state.generation or len(faces) != SLOTS:
             return None, "generation", f"{state.generation}", f"{generation.number} with {len(faces)} faces"
-        evolution = Evolution(self.rig, config, self._correction, lambda *_: "")
+        evolution = self._evolution(config)
         _, again = evolution.offer(trial, state)
         places = evolution.places(state)
         for face, made in zip(faces, again, strict=True):
-            for what in ("slot", "identity", "origin", "parents", "genes", "weights", *_collision_columns(face)):
-                expected, got = getattr(made, what), getattr(face, what)
-                if not _alike(what, expected, got):
-                    return face.slot, what, *self._told_apart(what, expected, got)
+            found = different(self.rig, made, face, ("slot", "identity", "origin", "parents", *MADE))
+            if found:
+                return face.slot, *found
             if places[face.place - 1] != face.slot:
                 return face.slot, "place", f"{places.index(face.slot) + 1}", f"{face.place}"
         return None
-
-    def _told_apart(self, what: str, expected: Any, got: Any) -> tuple[str, str]:
-        """Return two different values in words; of a vector, its first entry that differs."""
-        if not isinstance(got, bytes) or len(expected) != len(got):
-            return str(expected), str(got)
-        names, unpack = (
-            (self.rig.gene_names, unpack_genes) if what == "genes" else (self.rig.shape_names, unpack_weights)
-        )
-        # The first that differs may only be rounded otherwise: the one that differs most is told.
-        at = int(np.argmax(np.abs(unpack(expected) - unpack(got))))
-        wanted, found = (f"{names[at]} = {unpack(data)[at]}" for data in (expected, got))
-        return wanted, found
-
-
-def _alike(what: str, expected: Any, got: Any) -> bool:
-    """Return whether a value is the recorded one: what the solver of collisions gives, up to `ROUNDING`."""
-    if what == "weights" and len(expected) == len(got):
-        return bool(np.abs(unpack_weights(expected) - unpack_weights(got)).max(initial=0) <= ROUNDING)
-    if what in {"depth_before", "depth_after"} and None not in {expected, got}:
-        return abs(float(expected) - float(got)) <= ROUNDING
-    return bool(expected == got)
-
-
-def _collision_columns(face: Face) -> tuple[str, ...]:
-    """Return the columns of the collision's result; none for a face that was stored before there were any."""
-    columns = ("collided_lips", "collided_teeth", "depth_before", "depth_after")
-    return columns if any(getattr(face, column) is not None for column in columns) else ()
 
 
 def _ending(recorded: Recorded, trial: Trial, shown: Shown) -> Iterator[Difference]:

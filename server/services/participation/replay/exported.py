@@ -12,7 +12,7 @@ import numpy as np
 
 from emogen_core.rendering.worn import apart
 
-from ....store.runs_tables import ChoiceRecord, Face, Generation, Trial
+from ....store.runs_tables import ChoiceRecord, Estimate, Face, Generation, Trial
 from ...faces.sketch import pack_genes, pack_weights
 from ..recorded_export import RecordedExport, matrix
 from .comparison import Comparison
@@ -40,7 +40,7 @@ SAME_HEAD = 1.0
 
 
 class _Numbers(NamedTuple):
-    """(F, G) genes and (F, K) weights of all faces of an export."""
+    """(F, G) genes and (F, K) weights of all faces of a table."""
 
     genes: NDArray[np.float64]
     weights: NDArray[np.float64]
@@ -57,7 +57,7 @@ class ExportReplay:
     export: Export
     wardrobe: Wardrobe
     _comparisons: dict[str, Comparison] = field(default_factory=dict)
-    _numbers: dict[str, _Numbers] = field(default_factory=dict)
+    _numbers: dict[tuple[str, str], _Numbers] = field(default_factory=dict)
     _heads: dict[str, float] = field(default_factory=dict)
 
     def everybody(self, done: Callable[[int, int], object] = lambda _done, _of: None) -> Replayed:
@@ -106,6 +106,7 @@ class ExportReplay:
             Seat(row["head"] or "", row["order_row"], tuple(json.loads(row["trial_order"]))),
             complete, "some" if self._partial else "all" if complete else "begun",
             [(trial, self._shown(trial, rig)) for trial in self._trials[who]],
+            self._estimates(who, rig),
         )  # fmt: skip
 
     def _marked(self, who: str) -> Difference | None:
@@ -144,7 +145,7 @@ class ExportReplay:
         return [
             (
                 Generation(trial_id=trial.id, attempt=where[1], number=where[2]),
-                [self._face(at, row, self._of(rig)) for at, row in self._offered[where]],
+                [self._face(at, row, self._of(rig, "faces")) for at, row in self._offered[where]],
                 _choice(self._choices.get(where)),
             )
             for where in self._generations.get(trial.id, ())
@@ -157,14 +158,14 @@ class ExportReplay:
             place=row["place"],
             origin=row["origin"],
             parents=json.loads(row["parents"]),
-            identity=row["identity"],
-            genes=pack_genes(numbers.genes[at]),
-            weights=pack_weights(numbers.weights[at].astype(np.float32)),
-            collided_lips=row["collided_lips"],
-            collided_teeth=row["collided_teeth"],
-            depth_before=row["depth_before_mm"],
-            depth_after=row["depth_after_mm"],
+            **_made(at, row, numbers),
         )
+
+    def _estimates(self, who: str, rig: Rig) -> dict[str, Estimate]:
+        return {
+            row["trial"]: Estimate(trial_id=row["trial"], **_made(at, row, self._of(rig, "estimates")))
+            for at, row in self._estimated[who]
+        }
 
     @cached_property
     def _people(self) -> list[Row]:
@@ -206,30 +207,59 @@ class ExportReplay:
         return {_where(row): row for row in self.export.arrow("choices").to_pylist()}
 
     @cached_property
-    def _faces(self) -> pa.Table:
-        return self.export.arrow("faces")
+    def _tables(self) -> Mapping[str, pa.Table]:
+        """The tables with genes and weights; exports of earlier releases have no estimates."""
+        return {name: self.export.arrow(name) for name in ("faces", "estimates") if name in self.export.tables}
 
     @cached_property
     def _offered(self) -> Mapping[Where, list[tuple[int, Row]]]:
         """The faces of every generation by slot, each with its row in the table."""
         found: dict[Where, list[tuple[int, Row]]] = defaultdict(list)
-        plain = [name for name in self._faces.column_names if not name.startswith(("gene_", "weight_"))]
-        for at, row in enumerate(self._faces.select(plain).to_pylist()):
+        for at, row in self._rows("faces"):
             found[_where(row)].append((at, row))
         for faces in found.values():
             faces.sort(key=lambda one: one[1]["slot"])
         return found
 
-    def _of(self, rig: Rig) -> _Numbers:
-        """Return the numbers of all faces by the names of a rig; of another rig's faces they mean nothing."""
-        if rig.hash not in self._numbers:
-            genes = matrix(self._faces, "gene_", rig.gene_names)
-            self._numbers[rig.hash] = _Numbers(genes, matrix(self._faces, "weight_", rig.shape_names))
-        return self._numbers[rig.hash]
+    @cached_property
+    def _estimated(self) -> Mapping[str, list[tuple[int, Row]]]:
+        """What the search took for the faces in mind, by participation, each with its row in the table."""
+        found: dict[str, list[tuple[int, Row]]] = defaultdict(list)
+        for at, row in self._rows("estimates"):
+            found[row["participation"]].append((at, row))
+        return found
+
+    def _rows(self, name: str) -> Iterator[tuple[int, Row]]:
+        """Yield the rows of a table, without their genes and weights."""
+        if name in self._tables:
+            table = self._tables[name]
+            plain = [column for column in table.column_names if not column.startswith(("gene_", "weight_"))]
+            yield from enumerate(table.select(plain).to_pylist())
+
+    def _of(self, rig: Rig, name: str) -> _Numbers:
+        """Return the numbers of a table's faces by the names of a rig; of another rig's faces they mean nothing."""
+        if (rig.hash, name) not in self._numbers:
+            table = self._tables[name]
+            genes = matrix(table, "gene_", rig.gene_names)
+            self._numbers[rig.hash, name] = _Numbers(genes, matrix(table, "weight_", rig.shape_names))
+        return self._numbers[rig.hash, name]
 
 
 def _where(row: Row) -> Where:
     return row["trial"], row["attempt"], row["generation"]
+
+
+def _made(at: int, row: Row, numbers: _Numbers) -> Row:
+    """Return what a face is made of, by the names of its columns in the database."""
+    return {
+        "identity": row["identity"],
+        "genes": pack_genes(numbers.genes[at]),
+        "weights": pack_weights(numbers.weights[at].astype(np.float32)),
+        "collided_lips": row["collided_lips"],
+        "collided_teeth": row["collided_teeth"],
+        "depth_before": row["depth_before_mm"],
+        "depth_after": row["depth_after_mm"],
+    }
 
 
 def _choice(row: Row | None) -> ChoiceRecord | None:

@@ -12,12 +12,14 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
     from concurrent.futures import Future
 
+    from emogen_core.rendering.protocol import RenderSettings
+
     from ...faces.portraits import PortraitDrawer
     from ...faces.wardrobe import Wardrobe
     from .recorded import Recorded
 
 Waiting = tuple[str, "Future[bytes]"]
-Which = Literal["finished", "best", "all"]
+Which = Literal["finished", "best", "all", "estimates"]
 AHEAD = 64
 """Pictures that are asked for before the first of them is taken."""
 
@@ -30,7 +32,7 @@ class Album:
     wardrobe: Wardrobe
 
     def pictures(self, people: Iterable[Recorded], which: Which) -> Iterator[tuple[str, bytes]]:
-        """Yield name and PNG of the faces that ended a trial, of the best of every generation, or of all.
+        """Yield name and PNG of the faces that ended a trial, of the best of every generation, of all, or of estimates.
 
         Raises:
             RenderingError: this machine cannot draw.
@@ -53,6 +55,9 @@ def _taken(waiting: deque[Waiting]) -> tuple[str, bytes]:
 def _sketches(recorded: Recorded, which: Which) -> Iterator[tuple[str, Sketch]]:
     """Yield name and face: participation, trial, then attempt, generation and slot."""
     settings = settings_of(recorded.config)
+    if which == "estimates":
+        yield from _estimates(recorded, settings)
+        return
     for trial, shown in recorded.trials:
         for generation, faces, choice in shown:
             best = choice.elite_face_id if choice else None
@@ -61,3 +66,12 @@ def _sketches(recorded: Recorded, which: Which) -> Iterator[tuple[str, Sketch]]:
                     place = f"{generation.attempt}-{generation.number:02d}-{face.slot:02d}"
                     name = f"{recorded.participation}/{trial.position:02d}-{place}.png"
                     yield name, Sketch(face.identity, unpack_weights(face.weights), settings)
+
+
+def _estimates(recorded: Recorded, settings: RenderSettings) -> Iterator[tuple[str, Sketch]]:
+    """Yield name and face of what the search itself took for the faces in mind."""
+    for trial, _ in recorded.trials:
+        found = recorded.estimates.get(trial.id)
+        if found is not None:
+            name = f"{recorded.participation}/{trial.position:02d}-estimate.png"
+            yield name, Sketch(found.identity, unpack_weights(found.weights), settings)

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
-    from ....store.runs_tables import ChoiceRecord, Face, Generation, Trial
+    from ....store.runs_tables import ChoiceRecord, Estimate, Face, Generation, Trial
     from ...config import StudyConfig
 
     Shown = Sequence[tuple[Generation, Sequence[Face], ChoiceRecord | None]]
@@ -66,6 +66,7 @@ class Recorded:
         complete: whether it went through to the end.
         extent: which of its trials are here.
         trials: in their order, each with the generations that were shown, in the order of showing, and their choices.
+        estimates: by trial, what the search took for the face in mind, where it did.
     """
 
     participation: str
@@ -75,3 +76,4 @@ class Recorded:
     complete: bool
     extent: Extent
     trials: Sequence[tuple[Trial, Shown]]
+    estimates: Mapping[str, Estimate]

@@ -68,9 +68,10 @@ class Replay:
             if participation.rig_hash != expected:
                 raise other_rig(expected, participation.rig_hash)
             trials = [(trial, runs.generations_with_faces(tx, trial.id)) for trial in runs.trials(tx, participation.id)]
+            estimates = {one.trial_id: one for one in runs.estimates(tx, participation.id)}
             return Recorded(
                 participation.id, participation.seed, config, _seat(participation),
-                participation.outcome == "complete", "all", trials,
+                participation.outcome == "complete", "all", trials, estimates,
             )  # fmt: skip
 
 

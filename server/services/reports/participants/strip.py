@@ -9,7 +9,7 @@ import numpy as np
 
 from emogen_core.analysis.settling import distances_to_last
 
-from ....store import roster
+from ....store import roster, runs
 from ...faces.sketch import unpack_weights
 
 if TYPE_CHECKING:
@@ -20,7 +20,10 @@ if TYPE_CHECKING:
 
     Recorded = tuple[Generation, Sequence[Face], ChoiceRecord | None, Sequence[Event]]
 
-ORIGINS = {"elite-mean": "blend", "bred": "cross", "random": "new"}
+ORIGINS = {
+    "elite-mean": "blend", "bred": "cross", "random": "new",
+    "posterior-mean": "estimate", "draw": "guess", "draws-mean": "guesses", "elite-draw": "mix",
+}  # fmt: skip
 """What the page calls an origin, where that is another word than the record's."""
 PLAYED = frozenset({"select", "deselect", "best", "undo", "enlarge", "enlarge_end"})
 
@@ -58,11 +61,12 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Strip:
-    """An evolve trial: the attempt that counts, the ones before it, and its finished face."""
+    """An evolve trial: the attempt that counts, the ones before it, its finished face, the search's estimate."""
 
     rows: Sequence[Row]
     earlier: Sequence[Sequence[Row]]
     finished: str | None
+    estimate: str | None
     ratings: dict[str, int]
     seed: str
     head: str
@@ -97,11 +101,12 @@ def strip_of(tx: Tx, trial: Trial) -> Strip:
     last = max(attempts, default=0)
     distances = _distances(attempts.get(last, [])) if trial.final_face_id else {}
     faces = {face.id: face for _, shown, _, _ in recorded for face in shown}
-    final = faces.get(trial.final_face_id or "")
+    final, estimate = faces.get(trial.final_face_id or ""), runs.estimate(tx, trial.id)
     return Strip(
         rows=[_row(one, distances) for one in attempts.get(last, [])],
         earlier=[[_row(one, {}) for one in attempts[number]] for number in sorted(attempts) if number != last],
         finished=final.portrait_key if final else None,
+        estimate=estimate.portrait_key if estimate else None,
         ratings=roster.ratings(tx, trial.id),
         seed=trial.seed,
         head=trial.identity,

@@ -34,7 +34,7 @@ STEPS = ("consent", "calibration", "instructions", "practice", "evolve", "rating
 OUTCOMES = ("complete", "no_consent", "screened_out", "failed_checks", "stopped", "erased")
 ORIGINS = (
     "elite", "mean", "elite-mean", "kept", "bred", "random", "protocol:EMOTION", "arbitrary", "neutral", "fixed",
-    "fixed:NUMBER",
+    "fixed:NUMBER", "posterior-mean", "draw", "draws-mean", "elite-draw", "part",
 )  # fmt: skip
 EVENTS = (
     "select", "deselect", "best", "undo", "enlarge", "enlarge_end", "first_view", "hidden", "visible", "blur", "focus",
@@ -45,6 +45,13 @@ EVENTS = (
 def _family(name: str, family: Literal["genes", "weights"], help_: str, *, single: bool = False) -> Column:
     return Column(name, "number", help_, least=0, most=1, family=family, single=single)
 
+
+_COLLISION = (
+    truth("collided_lips", "Whether the upper lip had entered the lower one; empty where it was not looked for."),
+    truth("collided_teeth", "Whether front teeth had entered the lower lip; empty where it was not looked for."),
+    number("depth_before_mm", "Greatest depth of what collided, before the correction.", "mm"),
+    number("depth_after_mm", "The same after it; what the correction did are the eight last weights.", "mm"),
+)
 
 _ALL = (
     Table(
@@ -123,14 +130,7 @@ _ALL = (
             text("portrait_key", "Content key of its picture."),
             truth("selected", "Whether it was chosen; empty without a choice."),
             truth("elite", "Whether it was marked as the best; empty without a choice."),
-            truth(
-                "collided_lips", "Whether the upper lip had entered the lower one; empty where it was not looked for."
-            ),
-            truth(
-                "collided_teeth", "Whether front teeth had entered the lower lip; empty where it was not looked for."
-            ),
-            number("depth_before_mm", "Greatest depth of what collided, before the correction.", "mm"),
-            number("depth_after_mm", "The same after it; what the correction did are the eight last weights.", "mm"),
+            *_COLLISION,
             _family("gene_", "genes", "One column a gene of the rig: what the search moves."),
             _family("weight_", "weights", "One column a shape of the rig, correctives included.", single=True),
         ),
@@ -161,6 +161,24 @@ _ALL = (
                 "drawn_ms", "How long the server drew these faces; empty if they were drawn before or elsewhere."
             ),
             truth("none_is_close", "Whether none of the faces was said to come close; empty where it was not asked."),
+        ),
+    ),
+    Table(
+        "estimates",
+        "What a search that weighs all answers takes for the face in mind, one row a finished trial: a second result"
+        " beside its final face. The search of EmoGen 2021 has none.",
+        ("trial",),
+        (
+            *WHO,
+            *TRIAL,
+            integer("attempt", "The attempt whose answers it rests on, from 0."),
+            integer("generation", "The generation of the last of them."),
+            text("identity", f"The head that wears the rig: {_HEAD}"),
+            text("rig_hash", "SHA-256 of the face model that gives the numbers their meaning."),
+            text("portrait_key", "Content key of its picture."),
+            *_COLLISION,
+            _family("gene_", "genes", "One column a gene of the rig."),
+            _family("weight_", "weights", "One column a shape of the rig, correctives included.", single=True),
         ),
     ),
     Table(

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 README = """# {title}
 
 Data of the study {study}, as exported by Emogen. People picked among ten rendered faces what came closest to an
-expression that they had in mind; a genetic algorithm bred the next ten.
+expression that they had in mind; a search made the next ten of it (`algorithm` in participations).
 
 - `data/`: one CSV file a table, and beside it a JSON file that describes its columns. Rows belong together by the
   columns `participation` and `trial`.
@@ -44,8 +44,8 @@ manifest.json
 """
 """What the specification does not know; the list itself has to be in it."""
 TECHNIQUE = (
-    "Interactive evolution: people choose among ten rendered faces, a genetic algorithm breeds the next ten, and the"
-    " last best face is the measurement."
+    "Interactive evolution: people choose among ten rendered faces, a search (a genetic algorithm, or one that learns"
+    " from all choices) makes the next ten, and the last best face is the measurement."
 )
 _SCHEMA_ORG = {"@context": "https://schema.org/", "@type": "Dataset"}
 

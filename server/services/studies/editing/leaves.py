@@ -235,5 +235,5 @@ def in_words(words: Words, choices: tuple[str, ...]) -> Words:
 
 _LABELS = {
     "latin": "Latin square", "Scale": "Question of your own", "emogen": "EmoGen 2021", "document": "Face of your own",
-    "no_consent": "No consent", "yaml": "YAML",
+    "no_consent": "No consent", "preference": "Preference learning", "yaml": "YAML",
 }  # fmt: skip

@@ -71,6 +71,25 @@ def test_errors_name_field_value_and_what_is_allowed(change, field):
     assert field in error.message
 
 
+@pytest.mark.parametrize(("name", "value"), [("mutations", 3), ("random_genes", 3), ("random_faces", 0)])
+def test_what_would_have_no_effect_on_a_strategy_is_refused(name, value):
+    search = {"strategy": "preference", name: value}
+    (problem,) = problems_of({**PLAIN, "search": search})
+    assert (problem.field, problem.got) == (f"search.{name}", str(value))
+    assert problem.expected.endswith("since it has no effect on the strategy preference")
+    assert problems_of({**PLAIN, "search": {**search, name: {"mutations": 2, "random_genes": 6}.get(name, 4)}}) == ()
+    assert problems_of({**PLAIN, "search": {**search, "strategy": "emogen"}}) == ()
+
+
+def test_conditions_may_search_in_different_ways():
+    changes = {"search": {"strategy": "preference", "random_genes": 6}}
+    study = parse_config({**PLAIN, "conditions": [{"name": "A", "changes": {}}, {"name": "B", "changes": changes}]})
+    assert [one.search.strategy for one in study.whole] == ["emogen", "preference"]
+    del changes["search"]["random_genes"]  # the study's own stay, and have no effect here
+    (problem,) = problems_of({**PLAIN, "conditions": [{"name": "B", "changes": changes}]})
+    assert problem.field == "conditions.0.changes.search.random_genes"
+
+
 @pytest.mark.parametrize(
     ("change", "field"),
     [({"identities": ("nobody",)}, "identities.0"), ({"search": {"random_genes": 50}}, "search.random_genes")],

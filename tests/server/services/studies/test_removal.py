@@ -12,6 +12,8 @@ from tests.conftest import BOTH, small_study
 from tests.server.dump import dump
 from tests.server.walker import Walker
 
+LEARNING = {"strategy": "preference", "activation": (2, 3)}
+"""A search that stores an estimate of its own a trial."""
 KEPT = {"audit", "sessions", "rigs", "throttles"}
 
 
@@ -32,7 +34,7 @@ def test_nothing_of_a_study_stays_and_nothing_of_others_goes(client, house, make
     other = house.studies.create(small_study(recruiter_parameters=()))
     Walker(client, other.links[0]).finish()
     before = rows(house)
-    made = house.studies.create(small_study(recruiter_parameters=()), owner=maker)
+    made = house.studies.create(small_study(recruiter_parameters=(), search=LEARNING), owner=maker)
     house.life.add_links(made.id, NewLinks("personal", ["P 1"]), maker)
     house.tokens.create("mine", ["export"], study=made.id, user=maker)
     client.cookies.clear()

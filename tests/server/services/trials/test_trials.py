@@ -65,8 +65,8 @@ def test_a_participation_goes_through_every_kind_of_block(house, client):
 
 
 def test_a_trial_writes_the_tables_that_its_type_declares(house, client):
-    ratings = {"ratings": ("satisfaction",)}
-    study, person = run_of(house, client, FIRST, CHECK, READ, RATE, ABOUT, **ratings)
+    everything = {"ratings": ("satisfaction",), "search": {"strategy": "preference", "activation": (2, 3)}}
+    study, person = run_of(house, client, FIRST, CHECK, READ, RATE, ABOUT, **everything)
     for _ in range(2):
         person().finish()
     with house.database.read() as tx:

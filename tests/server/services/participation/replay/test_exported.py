@@ -265,3 +265,44 @@ def test_another_face_model_is_told(house, study, tmp_path):
     other = tampered(folder, "participations", changed(THERE, rig_hash="1" * 64))
     with pytest.raises(NotFoundError, match="another face model"):
         replayed(house, other)
+
+
+@pytest.fixture
+def learned(house, client):
+    """A study whose search weighs all answers."""
+    made = house.studies.create(small_study(search={"strategy": "preference", "activation": (2, 3)}))
+    Walker(client, made.links[0]).finish()
+    Walker(client, made.links[0]).finish(steps=4)
+    return made
+
+
+@pytest.mark.parametrize(
+    ("change", "what"),
+    [
+        (changed(on(practice=False), gene_g1=0.5), "estimate, genes"),
+        (changed(on(practice=False), weight_c01=0.5), "estimate, weights"),
+        (changed(on(practice=False), identity="male"), "estimate, identity"),
+        (dropped(on(practice=False)), "estimate"),
+    ],
+)
+def test_estimates_replay_and_a_changed_one_is_found(house, learned, tmp_path, change, what):
+    folder = exported(house, learned, tmp_path / "whole")
+    found = replayed(house, folder)
+    assert (found.difference, found.generations) == (None, house.replay.study(learned.id).generations)
+    trial = next(row["trial"] for row in map(json.loads, lines(folder, "estimates")) if not row["practice"])
+    difference = replayed(house, tampered(folder, "estimates", change)).difference
+    assert (difference.trial, difference.what) == (trial, what)
+    assert difference.expected != difference.got
+
+
+def test_an_export_from_before_there_were_estimates_replays(house, study, learned, tmp_path):
+    def without(study):
+        folder = exported(house, study, tmp_path / study.id)
+        (folder / "estimates.jsonl").unlink()
+        manifest = json.loads((folder / "manifest.json").read_text())
+        manifest["files"] = [file for file in manifest["files"] if file.get("table") != "estimates"]
+        (folder / "manifest.json").write_text(json.dumps(manifest))
+        return replayed(house, folder).difference
+
+    assert without(study) is None
+    assert without(learned).what == "estimate"

@@ -38,3 +38,24 @@ def test_every_wanted_face_is_drawn_once_from_its_weights(house, people, which):
     keys = {house.portraits.key(one.identity, one.weights, one.settings) for one in drawn}
     faces = [face for _, shown in person.trials for _, ten, _ in shown for face in ten]
     assert which != "all" or len(keys) == len({(face.identity, face.weights) for face in faces})
+
+
+def test_estimates_are_drawn_where_the_search_has_some(house, client, people, tmp_path):
+    study = house.studies.create(small_study(search={"strategy": "preference", "activation": (2, 3)}))
+    Walker(client, study.links[0]).finish()
+    export = Export(exported(house, study, tmp_path / "learned"))
+    drawn = []
+
+    class Drawer:
+        def submit(self, sketch, _priority, _head):
+            drawn.append(house.portraits.key(sketch.identity, sketch.weights, sketch.settings))
+            return house.portraits.sketched(sketch)
+
+    album = Album(Drawer(), house.journal.wardrobe)
+    assert list(album.pictures(people, "estimates")) == []
+    names = [
+        name for name, _ in album.pictures(ExportReplay(export, house.journal.wardrobe).participations(), "estimates")
+    ]
+    rows = export.arrow("estimates").to_pylist()
+    assert drawn == [row["portrait_key"] for row in rows]
+    assert names == [f"{rows[0]['participation']}/{position:02d}-estimate.png" for position in range(3)]

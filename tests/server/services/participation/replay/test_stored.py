@@ -5,7 +5,7 @@ from sqlalchemy import select  # noqa: TID251
 
 from server.services.errors import NotFoundError
 from server.services.participation.replay.comparison import Comparison
-from server.store.runs_tables import ChoiceRecord, Face, Generation, Trial
+from server.store.runs_tables import ChoiceRecord, Estimate, Face, Generation, Participation, Trial
 from tests.conftest import BOTH, small_study
 from tests.server.walker import Walker
 
@@ -67,6 +67,46 @@ def test_a_change_is_noticed(house, recorded, field, change):
     difference = house.replay.study(recorded.id).difference
     assert (difference.what, difference.slot, difference.generation) == (field, 5, 2)
     assert difference.expected != difference.got
+
+
+@pytest.fixture
+def learned(client, house):
+    """A study whose search weighs all answers."""
+    study = house.studies.create(small_study(search={"strategy": "preference", "activation": (2, 3)}))
+    Walker(client, study.links[0]).finish()
+    return study
+
+
+@pytest.mark.parametrize(
+    ("field", "change"),
+    [
+        ("genes", lambda data: bytes([data[0] ^ 1]) + data[1:]),
+        ("weights", lambda data: data[:-1] + bytes([data[-1] ^ 0x3F])),
+        ("identity", lambda _: "male"),
+    ],
+)
+def test_a_changed_estimate_is_noticed(house, learned, field, change):
+    assert house.replay.study(learned.id).difference is None
+    with house.database.write() as tx:
+        estimate = tx.scalars(select(Estimate)).first()
+        setattr(estimate, field, change(getattr(estimate, field)))
+    difference = house.replay.study(learned.id).difference
+    assert (difference.trial, difference.what) == (estimate.trial_id, f"estimate, {field}")
+    assert difference.expected != difference.got
+
+
+def test_an_estimate_that_is_missing_or_too_many_is_noticed(house, learned, recorded):
+    with house.database.write() as tx:
+        one = tx.scalars(select(Estimate)).first()
+        mine = {name: getattr(one, name) for name in ("identity", "genes", "weights", "portrait_key")}
+        tx.delete(one)
+        trial = tx.scalars(
+            select(Trial).join(Participation).where(Participation.study_id == recorded.id, Trial.final_face_id != "")
+        ).first()
+        tx.add(Estimate(trial_id=trial.id, **mine))
+    for study, expected, got in ((learned, "one", "none"), (recorded, "none", "one")):
+        difference = house.replay.study(study.id).difference
+        assert (difference.what, difference.expected, difference.got) == ("estimate", expected, got)
 
 
 def test_another_choice_or_seed_is_noticed(house, recorded):

@@ -105,6 +105,20 @@ def test_times_undo_and_moments(complete):
     assert complete.strip.faces == 40
 
 
+def test_the_search_s_own_estimate_stands_beside_the_finished_face(house, client, complete):
+    assert complete.strip.estimate is None, "the search of the paper has none"
+    study = house.studies.create(small_study(search={"strategy": "preference", "activation": (2, 3)}))
+    walker = Walker(client, study.links[0])
+    walker.finish(steps=4)
+    assert house.records.person(study.id, 0).strip.estimate is None, "not before the last choice"
+    walker.finish()
+    strip = house.records.person(study.id, 0).strip
+    first, *_ = [row for row in lines(house, study.id, "estimates") if not row["practice"]]
+    assert strip.estimate == first["portrait_key"]
+    later = {"elite", "estimate", "guess", "guesses", "mix", "part", "new"}
+    assert {tile.origin for row in strip.rows[1:] for tile in row.tiles} <= later
+
+
 def test_tabs_and_items(house, study, complete):
     assert complete.tabs[0].label == "Practice"
     assert [tab.label for tab in complete.tabs][-2:] == ["Read", "Check"]

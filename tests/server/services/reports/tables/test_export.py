@@ -43,6 +43,15 @@ def rows(reply):
     return list(csv.DictReader(io.StringIO(reply.text)))
 
 
+@pytest.fixture
+def learned(client, house):
+    """A study whose search weighs all answers."""
+    study = house.studies.create(small_study(search={"strategy": "preference", "activation": (2, 3)}))
+    Walker(client, study.links[0]).finish()
+    Walker(client, study.links[0]).finish(steps=4)
+    return study
+
+
 @BOTH
 def test_counts_fit_together(get):
     tables = {table: rows(get(table=table, format="csv")) for table in TABLES}
@@ -69,12 +78,13 @@ def test_csv_and_json_lines_say_the_same(get):
                     assert float(one[name]) == value
 
 
-def test_faces_carry_genes_and_weights_exactly(get, house):
+@pytest.mark.parametrize("table", ["faces", "estimates"])
+def test_faces_carry_genes_and_weights_exactly(house, learned, table):
     from emogen_core.correctives.pipeline import face_weights
 
-    rig = house.journal.rig
-    for line in get(table="faces", format="jsonl").text.splitlines():
-        row = json.loads(line)
+    rig, found = house.journal.rig, lines(house, learned.id, table)
+    assert found
+    for row in found:
         genes = np.array([[row[f"gene_{name}"] for name in rig.gene_names]])
         weights = [row[f"weight_{name}"] for name in rig.shape_names]
         assert face_weights(rig, row["identity"], genes).weights[0].tolist() == weights
@@ -92,6 +102,18 @@ def test_an_empty_study_exports_headers(client, house):
     study = house.studies.create(small_study())
     assert text(house, study.id, "ratings", "csv").splitlines() == [",".join(c.name for c in TABLES["ratings"].columns)]
     assert lines(house, study.id, "ratings") == []
+
+
+@BOTH
+def test_every_finished_trial_of_a_search_that_weighs_all_answers_has_an_estimate(house, learned):
+    trials = {row["trial"]: row for row in lines(house, learned.id, "trials") if row["final_face"]}
+    rows = lines(house, learned.id, "estimates")
+    assert [row["trial"] for row in rows] == list(trials)
+    assert len(rows) == 3 + 1, "practice counts; who left had finished it alone"
+    for row in rows:
+        trial = trials[row["trial"]]
+        assert (row["attempt"], row["generation"]) == (trial["attempts"], trial["generations"])
+        assert row["identity"] == trial["identity"]
 
 
 def test_formulas_are_guarded(get):
@@ -117,7 +139,8 @@ def value(column, kind):
 
 
 @pytest.mark.parametrize("table", TABLES)
-def test_parquet_says_the_same_as_json_lines(house, recorded, table):
+def test_parquet_says_the_same_as_json_lines(house, recorded, learned, table):
+    recorded = learned if table == "estimates" else recorded
     data = b"".join(house.exports.table(recorded.id, table, "parquet").chunks)
     found = parquet.read_table(io.BytesIO(data))
     kinds = dict(zip(found.schema.names, found.schema.types, strict=True))
@@ -137,7 +160,9 @@ def test_parquet_says_the_same_as_json_lines(house, recorded, table):
     assert set(weights) <= {pa.float32()}
 
 
-def test_every_value_is_one_that_the_dictionary_allows(house, recorded):
+@pytest.mark.parametrize("study", ["recorded", "learned"])
+def test_every_value_is_one_that_the_dictionary_allows(house, request, study):
+    recorded = request.getfixturevalue(study)
     for table in TABLES.values():
         rows = lines(house, recorded.id, table.name)
         for column in (one for one in table.columns if one.type != "json" and not one.family):
@@ -148,7 +173,8 @@ def test_every_value_is_one_that_the_dictionary_allows(house, recorded):
                     assert column.least <= found <= (found if column.most is None else column.most)
 
 
-def test_the_key_tells_rows_apart(house, recorded):
+def test_the_key_tells_rows_apart(house, recorded, learned):
     for table in TABLES.values():
-        keys = [tuple(row[name] for name in table.key) for row in lines(house, recorded.id, table.name)]
+        rows = [*lines(house, recorded.id, table.name), *lines(house, learned.id, table.name)]
+        keys = [tuple(row[name] for name in table.key) for row in rows]
         assert len(set(keys)) == len(keys)

@@ -58,6 +58,11 @@ def test_any_study_comes_out_as_it_went_in(form, config):
     assert (shown.changes, shown.wrong) == (0, ())
 
 
+def test_a_strategy_that_learns_comes_out_as_it_went_in(form):
+    config = small_study(search={"strategy": "preference", "activation": (2, 3)})
+    assert came_out(form, config) == config
+
+
 def options_of(parts, part, option=""):
     """Every option of the schema, found without the form's help: stars for rows, kinds after an equals sign."""
     for name, field in part["properties"].items():
@@ -171,6 +176,10 @@ def test_numbers_that_are_none_stay_as_typed_and_are_refused_in_words(form):
         ({"translations": ["0", "1"], "translations.0.key": ["de"], "translations.1.key": ["de"]},
          "Texts and languages: language: expected different names"),
         ({"completion.redirects.full": ["http://x.org"]}, "Recruitment: full: expected an address that begins"),
+        (
+            {"search.strategy": ["preference"]},
+            "Starting faces: genes of a random face: expected 6, since it has no effect on the strategy preference",
+        ),
     ],
 )  # fmt: skip
 def test_a_problem_names_the_field_and_the_place_in_it(form, changes, line):

@@ -1,0 +1,140 @@
+"""From answers to draws, and from draws to faces, in arrays: what the strategy does for one search, for several.
+
+Draws are kept between answers: a new answer first weights and resamples them, then moves them (see `sampler`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from emogen_core.search.params import POPULATION
+from emogen_core.search.preference import prior
+from emogen_core.search.preference.chains import NUMBERS, ROUND, Evidence
+from emogen_core.search.preference.design import picked
+from emogen_core.search.preference.likelihood import arranged
+from emogen_core.search.preference.proposals import mean_face, means_of_many, pool, shaped
+from emogen_core.search.preference.sample import Sample
+from emogen_core.search.preference.sampler import moved, resampled, weighed
+from emogen_core.search.preference.utility import COSINE, utilities
+from emogen_core.search.state import Choice
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from emogen_core.search.preference.utility import Space
+
+    Floats = NDArray[np.float64]
+
+CHAINS = 64
+FIRST = 2000
+"""Draws from the prior that the first answer is weighed on."""
+FIRST_ROUNDS, ROUNDS = 4, 4
+"""Rounds of moves after the first answer, and after every other."""
+MOST_ALIKE = (1.0, 0.28, 0.29, 0.31, 0.34, 0.37)
+"""Mean cosine of any two of ten faces by generation, as of the paper's algorithm; later faces may be more alike."""
+IN_MEAN = 12
+"""Draws in each of the faces of the last generation."""
+
+Told = Sequence[tuple["Floats", Choice]]
+"""All answers of a search: (10, A) faces, and the choice."""
+
+
+def learn(
+    space: Space, told: Sequence[Told], before: Sequence[Sample] | None, streams: Sequence[np.random.Generator]
+) -> list[Sample]:
+    """Return the draws of every search after its last answer.
+
+    Args:
+        space: the genes.
+        told: the answers of every search; as many in each, of as many faces.
+        before: the draws before the last answer; None if it was the first.
+        streams: of random numbers, one a search.
+    """
+    begun = [_prior(space, rng) for rng in streams] if before is None else before
+    kept = [_kept(space, *search) for search in zip(told, begun, streams, strict=True)]
+    rounds = FIRST_ROUNDS if before is None else ROUNDS
+    numbers = np.concatenate([rng.random((rounds, ROUND, NUMBERS, CHAINS)) for rng in streams], axis=3)
+    searches = np.repeat(np.arange(len(streams)), CHAINS)
+    after = moved(space, _evidence(told), _joined(kept), searches, numbers)
+    return [after.at(np.flatnonzero(searches == i)) for i in range(len(streams))]
+
+
+def _prior(space: Space, rng: np.random.Generator) -> Sample:
+    return prior.drawn(rng.random((FIRST, 3 + 2 * space.genes)))
+
+
+def _kept(space: Space, told: Told, sample: Sample, rng: np.random.Generator) -> Sample:
+    """Return as many draws as there are chains, in proportion to how likely they make the last answer."""
+    weights = weighed(space, _evidence([told[-1:]]), sample, np.zeros(len(sample.metric), np.intp))
+    return sample.at(resampled(weights, CHAINS, rng.random()))
+
+
+def _evidence(told: Sequence[Told]) -> Evidence:
+    faces = np.stack([np.concatenate([faces for faces, _ in search]) for search in told])
+    return Evidence(faces, [arranged([choice for _, choice in search]) for search in told])
+
+
+def _joined(samples: Sequence[Sample]) -> Sample:
+    return Sample(
+        np.concatenate([one.genes for one in samples]),
+        np.concatenate([one.log_tau for one in samples]),
+        np.concatenate([one.metric for one in samples]),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """A generation, and the last one of its trial."""
+
+    generation: int
+    last: int
+
+
+def faces_of(
+    space: Space, sample: Sample, elite: Floats, turn: Turn, rng: np.random.Generator
+) -> tuple[Floats, tuple[str, ...]]:
+    """Return the (10, A) faces of a generation and where they come from, the elite first.
+
+    Args:
+        space: the genes.
+        sample: the draws.
+        elite: (A,) the face that was best.
+        turn: the generation; the faces of the last one are all near to what is meant, to be chosen from.
+        rng: the stream of this generation.
+    """
+    if turn.generation == turn.last:
+        made, named = _nearest(space, sample, rng)
+    else:
+        made, named = pool(sample, elite, rng)
+    made = shaped(sample, np.concatenate([mean_face(space, sample)[None], made]), turn.generation)
+    faces, origins = np.concatenate([elite[None], made]), ("elite", "posterior-mean", *named)
+    slots = np.arange(POPULATION) if turn.generation == turn.last else _asked(space, sample, faces, turn.generation)
+    return faces[slots], tuple(origins[slot] for slot in slots)
+
+
+def _nearest(space: Space, sample: Sample, rng: np.random.Generator) -> tuple[Floats, tuple[str, ...]]:
+    """Return eight faces as near to what is meant as is known, but not the same."""
+    return means_of_many(space, sample, POPULATION - 2, IN_MEAN, rng), ("draws-mean",) * (POPULATION - 2)
+
+
+def _asked(space: Space, sample: Sample, faces: Floats, generation: int) -> NDArray[np.intp]:
+    """Return the indices of ten faces, the elite first; while they are to be unlike, the mean face has no own slot."""
+    varied = generation < len(MOST_ALIKE)
+    given = 1 if varied else 2
+    different = _different(faces)
+    shown = faces[different]
+    judged = utilities(space, shown, sample.genes, sample.metric) / np.exp(np.median(sample.log_tau))
+    alike = utilities(space, shown, shown, np.full(len(shown), COSINE))
+    chosen = picked(judged, given, POPULATION - given, alike, MOST_ALIKE[generation] if varied else 1.0)
+    return np.asarray(different[np.concatenate([np.arange(given), chosen])])
+
+
+def _different(faces: Floats) -> NDArray[np.intp]:
+    """Return the indices of different faces, the first two among them; of all, where there are hardly any."""
+    _, first = np.unique(faces, axis=0, return_index=True)
+    different: NDArray[np.intp] = np.union1d(first, [0, 1])
+    return different if len(different) >= 2 * POPULATION else np.arange(len(faces))

@@ -1,0 +1,119 @@
+"""The faces that may be shown next: draws from the posterior, means and parts of them, and sparse faces at random.
+
+Genes are rounded to a grid of 2^-24 wherever a mean or a norm makes them, so that they do not depend on the last bit of
+a sum or a root: on every machine the same face is shown.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from emogen_core.search.operators import scatter
+from emogen_core.search.preference.utility import COSINE, LEAST_SQUARE, VERTEX
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from emogen_core.search.preference.sample import Sample
+    from emogen_core.search.preference.utility import Space
+
+    Floats = NDArray[np.float64]
+
+PAIRS, TRIPLES, CROSSED, PARTS, SPARSE = 24, 12, 16, 48, 24
+"""How many means of two draws and of three, mixtures of elite and draw, parts of a draw, and random faces."""
+MOST_IN_PART, MOST_SPARSE = 6, 7
+GRID = 2.0**24
+LEAST_STRONGEST = 0.4
+"""Of a shown face's strongest gene while faces are judged by composition: fainter ones could hardly be told apart."""
+MOST_ACTIVE, EARLY = 16, 7
+"""Genes at work in a face, up to this generation."""
+FAINT = 0.02
+"""Weights below it are not shown."""
+
+
+def on_grid(genes: Floats) -> Floats:
+    """Return genes in [0, 1), multiples of 2^-24."""
+    return np.asarray(np.clip(np.rint(genes * GRID), 0, GRID - 1) / GRID)
+
+
+def mean_face(space: Space, sample: Sample) -> Floats:
+    """Return the (A,) face that on average is nearest to all draws: their mean direction, at their median norm.
+
+    Directions and norms are those of the metric that most draws have.
+    """
+    (face,) = _means(space, sample, np.arange(len(sample.metric))[None])
+    return np.asarray(face)
+
+
+def composition_leads(sample: Sample) -> bool:
+    """Return whether at least half of the draws judge by cosine."""
+    return bool(np.mean(sample.metric == COSINE) >= 0.5)
+
+
+def pool(sample: Sample, elite: Floats, rng: np.random.Generator) -> tuple[Floats, tuple[str, ...]]:
+    """Return (P, A) candidates and where each comes from."""
+    draws = sample.genes
+    kinds = {
+        "draw": draws,
+        "draws-mean": np.concatenate([_averages(draws, 2, PAIRS, rng), _averages(draws, 3, TRIPLES, rng)]),
+        "elite-draw": np.where(rng.random((CROSSED, len(elite))) < 0.5, elite, _some(draws, CROSSED, rng)),
+        "part": _parts(_some(draws, PARTS, rng), rng),
+        "random": _sparse(len(elite), rng),
+    }
+    origins = tuple(name for name, faces in kinds.items() for _ in faces)
+    return np.concatenate(list(kinds.values())), origins
+
+
+def shaped(sample: Sample, genes: Floats, generation: int) -> Floats:
+    """Return (B, A) faces as they may be shown: not too many genes at work early, none faint, none nearly invisible."""
+    shown = np.where(genes < FAINT, 0, genes)
+    if generation <= EARLY and genes.shape[1] > MOST_ACTIVE:
+        order = np.argsort(-shown, axis=1, kind="stable")
+        np.put_along_axis(shown, order[:, MOST_ACTIVE:], 0, axis=1)
+    if composition_leads(sample):
+        strongest = shown.max(axis=1, keepdims=True)
+        raised = np.divide(LEAST_STRONGEST, strongest, out=np.ones_like(strongest), where=strongest > 0)
+        shown = shown * np.maximum(raised, 1)
+    return on_grid(shown)
+
+
+def means_of_many(space: Space, sample: Sample, count: int, draws: int, rng: np.random.Generator) -> Floats:
+    """Return (count, A) mean faces of some of the draws each."""
+    order = np.argsort(rng.random((count, len(sample.metric))), axis=1, kind="stable")
+    return _means(space, sample, order[:, :draws])
+
+
+def _means(space: Space, sample: Sample, which: NDArray[np.intp]) -> Floats:
+    """Return the (B, A) mean directions of (B, n) draws, at the median norm of all."""
+    leading = COSINE if composition_leads(sample) else VERTEX
+    norms = np.sqrt(np.maximum(space.squares(np.full(len(sample.metric), leading), sample.genes), LEAST_SQUARE))
+    directions = (sample.genes / norms[:, None])[which].sum(axis=1)
+    lengths = np.sqrt(np.maximum(space.squares(np.full(len(which), leading), directions), LEAST_SQUARE))
+    return on_grid(directions * (np.median(norms) / lengths)[:, None])
+
+
+def _some(draws: Floats, count: int, rng: np.random.Generator) -> Floats:
+    return draws[(rng.random(count) * len(draws)).astype(np.intp)]
+
+
+def _averages(draws: Floats, of: int, count: int, rng: np.random.Generator) -> Floats:
+    order = np.argsort(rng.random((count, len(draws))), axis=1, kind="stable")[:, :of]
+    return on_grid(draws[order].sum(axis=1) / of)
+
+
+def _parts(faces: Floats, rng: np.random.Generator) -> Floats:
+    """Return faces of which one to six genes that are at work stay."""
+    keep = 1 + (rng.random(len(faces)) * MOST_IN_PART).astype(np.intp)
+    keys = np.where(faces > 0, rng.random(faces.shape), 2)
+    rank = np.argsort(np.argsort(keys, axis=1, kind="stable"), axis=1, kind="stable")
+    return np.where(rank < keep[:, None], faces, 0)
+
+
+def _sparse(genes: int, rng: np.random.Generator) -> Floats:
+    """Return faces with one to seven genes at U(0, 1)."""
+    most = min(MOST_SPARSE, genes)
+    counts = 1 + (rng.random(SPARSE) * most).astype(np.intp)
+    indices = np.argsort(rng.random((SPARSE, genes)), axis=1, kind="stable")[:, :most]
+    return scatter(genes, indices, rng.random((SPARSE, most)) * (np.arange(most) < counts[:, None]))

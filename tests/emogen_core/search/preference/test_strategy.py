@@ -1,0 +1,161 @@
+"""The strategy on state: the interface that every search has, replay bit for bit, and that it learns."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import Phase, given, settings
+from hypothesis import strategies as st
+
+from emogen_core.errors import InvalidInputError
+from emogen_core.search import Choice, Population, SearchParams, State, emogen, preference
+from emogen_core.similarity.cosine import cosine_distance
+from tests.emogen_core.search.space import GENES, choices, space
+
+histories = st.lists(choices(), min_size=1, max_size=2)
+seeds = st.integers(0, 2**128 - 1)
+few = settings(max_examples=4, deadline=None, phases=[Phase.generate])
+
+
+def play(params: SearchParams, seed: int, history: list[Choice]) -> tuple[list[Population], State]:
+    state, shown = preference.init(params, seed), []
+    for choice in history:
+        shown.append(preference.ask(params, state))
+        state = preference.tell(params, state, choice)
+    return shown, state
+
+
+@few
+@given(seeds, histories)
+def test_a_stored_state_gives_the_same_bits_and_keeps_every_answer(seed: int, history: list[Choice]) -> None:
+    params = space()
+    shown, state = play(params, seed, history)
+    stored = State.from_json(json.loads(json.dumps(state.to_json())))
+    assert stored == state
+    assert preference.ask(params, stored).genes.tobytes() == preference.ask(params, state).genes.tobytes()
+    assert [np.array(one.genomes).tolist() for one in state.answers] == [one.genes.tolist() for one in shown]
+    assert [one.choice for one in state.answers] == history
+
+
+@few
+@given(seeds, histories)
+def test_ten_faces_within_range_of_which_the_first_is_the_elite(seed: int, history: list[Choice]) -> None:
+    params = space()
+    shown, state = play(params, seed, history)
+    after = preference.ask(params, state)
+    assert after.genes.shape == (10, GENES)
+    assert len(after.origins) == len(after.parents) == 10
+    assert np.array_equal(after.genes[0], shown[-1].genes[history[-1].elite - 1])
+    assert after.parents[0] == (history[-1].elite,)
+    assert after.origins[0] == "elite"
+    assert ((after.genes >= 0) & (after.genes < 1)).all()
+    assert (after.genes[:, 18:] == 0).all()
+    assert preference.ask_ahead(params, state) == {}
+
+
+def test_faces_that_several_callers_share_cannot_be_changed() -> None:
+    params = space()
+    state = preference.tell(params, preference.init(params, 9), Choice((1, 2), 2))
+    shown = preference.ask(params, state)
+    with pytest.raises(ValueError, match="read-only"):
+        shown.genes[1, 0] = 0.5
+
+
+def test_the_first_ten_faces_are_those_of_every_strategy() -> None:
+    for attempt in (0, 1):
+        params = space(reset="redraw")
+        mine, theirs = (one.ask(params, one.init(params, 5, attempt)) for one in (preference, emogen))
+        assert np.array_equal(mine.genes, theirs.genes)
+        assert mine.origins == theirs.origins
+
+
+def test_another_start_knows_nothing_and_draws_other_numbers() -> None:
+    params = space(reset="keep")
+    states = [preference.tell(params, preference.init(params, 7, attempt), Choice((1, 2), 1)) for attempt in (0, 1)]
+    assert states[0].previous == states[1].previous
+    assert states[0].sample != states[1].sample
+    assert states[1].earlier == ()
+
+
+def test_the_order_of_clicks_does_not_matter() -> None:
+    params = space()
+    start = preference.init(params, 3)
+    one, other = (preference.tell(params, start, Choice(selected, 4)) for selected in ((2, 4, 9), (9, 4, 2)))
+    assert one.sample == other.sample
+
+
+def test_another_process_shows_the_same_faces() -> None:
+    program = (
+        "import json, sys; from emogen_core.search import State, preference;"
+        "from tests.emogen_core.search.space import space;"
+        "state = State.from_json(json.load(sys.stdin));"
+        "print(preference.ask(space(), state).genes.tobytes().hex());"
+        "from emogen_core.search import Choice;"
+        "print(json.dumps(preference.tell(space(), state, Choice((3, 5), 5)).to_json()))"
+    )
+    _, state = play(space(), 11, [Choice((1, 2, 6), 2), Choice((4,), 4)])
+    told = subprocess.run(
+        [sys.executable, "-c", program], input=json.dumps(state.to_json()), capture_output=True, text=True, check=True
+    ).stdout.splitlines()
+    assert told[0] == preference.ask(space(), state).genes.tobytes().hex()
+    assert State.from_json(json.loads(told[1])) == preference.tell(space(), state, Choice((3, 5), 5))
+
+
+def test_a_known_search_stays_what_it_is() -> None:
+    # Recorded participations are replayed by later versions and on other machines: these genes must never change.
+    _, state = play(space(), 2**70 + 1, [Choice((1, 2, 6), 2), Choice((4, 9), 4)])
+    faces = preference.ask(space(), state).genes
+    assert (faces * 2**24).sum(axis=1).tolist() == KNOWN
+
+
+@pytest.mark.parametrize("generations", [6])
+def test_it_finds_a_sparse_face_that_somebody_always_recognises(generations: int) -> None:
+    params = space(generations=generations)
+    target = np.zeros(GENES)
+    target[[2, 11]] = 0.9, 0.5
+    state = preference.init(params, 1)
+    for generation in range(generations + 1):
+        distances = cosine_distance(preference.ask(params, state).genes, target)
+        order = np.argsort(distances, kind="stable")[: 2 if generation == 0 else 4] + 1
+        state = preference.tell(params, state, Choice(tuple(order.tolist()), int(order[0])))
+    assert distances.min() < 0.01
+    assert cosine_distance(preference.mean_face(params, state), target) < 0.01
+
+
+def test_a_search_over_one_gene_still_shows_ten_faces() -> None:
+    params = replace(space(random_genes=1), active=(3,))
+    state = preference.init(params, 1)
+    for _ in range(4):
+        state = preference.tell(params, state, Choice((2, 5), 5))
+    faces = preference.ask(params, state).genes
+    assert faces.shape == (10, GENES)
+    assert np.array_equal(faces[:, 3], faces.sum(axis=1))
+
+
+def test_there_is_no_mean_face_before_an_answer() -> None:
+    with pytest.raises(InvalidInputError, match="answer"):
+        preference.mean_face(space(), preference.init(space(), 1))
+
+
+def test_a_choice_that_the_study_does_not_allow_is_refused() -> None:
+    with pytest.raises(InvalidInputError, match="1 to 3 faces"):
+        preference.tell(space(maximum=3), preference.init(space(), 1), Choice((1, 2, 3, 4), 1))
+
+
+KNOWN = [
+    117973109.0,
+    12986080.0,
+    58817464.0,
+    58581585.0,
+    19603264.0,
+    130942100.0,
+    51143204.0,
+    42042291.0,
+    8001422.0,
+    131338422.0,
+]
