@@ -1,0 +1,89 @@
+"""The searches of one strategy under one condition, as numbers: noise as scatter and as bias, and what was shown.
+
+``scatter`` is ``1 - |mean unit vector|^2`` of the results for one target, without the bias that few searches have, on
+average over targets: it sets how many participants a study needs. ``bias`` is the cosine distance of the average of
+these results from the target: no number of participants takes it away.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from emogen_core.similarity.cosine import cosine_distance
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from emogen_core.simulation.evaluation.strategies.course import Course
+    from emogen_core.simulation.runs import Experiment
+
+    Floats = NDArray[np.float64]
+
+STRENGTHS = np.linspace(0.02, 1, 50)
+"""Of the face whose genes are all the same: the one that suits best stands for no information."""
+
+
+@dataclass(frozen=True, eq=False)
+class Summary:
+    """One strategy under one condition, for targets of as many genes; N generations with the first faces.
+
+    Attributes:
+        judged: (N,) mean errors of best faces, by the metric that people judge by.
+        cosine: (N,) the same by cosine.
+        believed: (N,) mean errors of the strategy's own mean faces; NaN without any.
+        error: standard error of the mean of the last errors.
+        scatter, bias: of the last best faces.
+        intensity: mean length of a result as a share of that of the target.
+        alike, active, faint: (N,) means over the faces that were shown.
+    """
+
+    judged: Floats
+    cosine: Floats
+    believed: Floats
+    error: float
+    scatter: float
+    bias: float
+    intensity: float
+    alike: Floats
+    active: Floats
+    faint: Floats
+
+
+def summary(course: Course, meant: NDArray[np.floating]) -> Summary:
+    """Return the summary of searches for (M, K) targets; search i is for target i % M, at least two for each."""
+    last = course.judged[:, -1]
+    return Summary(
+        course.judged.mean(0), course.cosine.mean(0), course.believed.mean(0),
+        float(last.std(ddof=1) / np.sqrt(len(last))),
+        scatter(course.final, len(meant)), bias(course.final, meant), float(course.intensity.mean()),
+        course.alike.mean(0), course.active.mean(0), course.faint.mean(0),
+    )  # fmt: skip
+
+
+def scatter(final: NDArray[np.floating], targets: int) -> float:
+    """Return the mean scatter of (R, K) results by target, search i for target i % targets."""
+    unit = final / np.maximum(np.linalg.norm(final, axis=1, keepdims=True), 1e-12)
+    own = unit.reshape(-1, targets, unit.shape[-1]).astype(np.float64)
+    lengths = np.square(own.mean(0)).sum(-1)
+    return float((1 - lengths).mean() * len(own) / (len(own) - 1))
+
+
+def bias(final: NDArray[np.floating], meant: NDArray[np.floating]) -> float:
+    """Return the mean cosine distance of the averaged results from the (M, K) targets, search i for target i % M."""
+    average = final.reshape(-1, len(meant), final.shape[-1]).mean(0)
+    return float(cosine_distance(average, meant).mean())
+
+
+def no_information(experiment: Experiment) -> float:
+    """Return the mean error, by the metric that people judge by, of the face whose genes are all the same.
+
+    Its strength is the one that suits all targets best.
+    """
+    reach = np.zeros((1, experiment.params.gene_count))
+    reach[:, list(experiment.params.active)] = 1
+    meant = np.asarray(experiment.faces(np.atleast_2d(experiment.target)), np.float64)
+    faces = np.asarray(experiment.faces(STRENGTHS[:, None] * reach), np.float64)
+    return float(min(experiment.metric(np.broadcast_to(face, meant.shape), meant).mean() for face in faces))
