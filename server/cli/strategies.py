@@ -15,7 +15,7 @@ from emogen_core.errors import expected
 from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.search.params import search_params
 from emogen_core.simulation.evaluation.laboratory import Laboratory
-from emogen_core.simulation.evaluation.strategies import CONDITIONS, FEWEST, compare
+from emogen_core.simulation.evaluation.strategies import CONDITIONS, FEWEST, Plan, compare
 from emogen_core.simulation.evaluation.strategies.tables import tables
 from emogen_core.simulation.evaluation.work import engine
 
@@ -34,9 +34,7 @@ Out = Annotated[Path | None, typer.Option("--out", help="Folder to write to: Mar
 Searches = Annotated[int, typer.Option(min=FEWEST, max=5000, help="Searches of each strategy for every number.")]
 Seed = Annotated[int, typer.Option(min=0, help="The same seed gives the same numbers.")]
 Workers = Annotated[int | None, typer.Option(min=1, help="Processes; all cores. The numbers do not depend on it.")]
-Only = Annotated[
-    list[str] | None, typer.Option(help=f"A condition; may be repeated. Of: {', '.join(CONDITIONS)}.")
-]
+Only = Annotated[list[str] | None, typer.Option(help=f"A condition; may be repeated. Of: {', '.join(CONDITIONS)}.")]
 Targets = Annotated[
     Literal["held-out", "tuning"], typer.Option(help="Targets to report on, or others, to tune settings on.")
 ]
@@ -53,8 +51,9 @@ def strategies_(  # noqa: PLR0913, PLR0917 - typer reads the options from the si
         folder = made_folder(out) if out else None
         rig = load_bundled_rig()
         laboratory = Laboratory(rig, HEAD, seed, search_params(rig))
+        plan = Plan(tuple(names), searches, targets)
         with progress("Simulating") as done:
-            cells = compare(laboratory, names, searches, targets, engine(workers or cores()), done)
+            cells = compare(laboratory, plan, engine(workers or cores()), done)
         made = tables(cells)
         facts = Facts(_command(searches, seed, names, targets), release(), rig.name, rig.hash, HEAD, searches, seed)
     told = json.dumps({**asdict(facts), "tables": {one.name: plain(one) for one in made}}, indent=2, allow_nan=False)

@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 
 from emogen_core.errors import InvalidInputError, expected
 from emogen_core.simulation.complexity import COMPLEXITIES, COUNT, PURPOSES
-from emogen_core.simulation.evaluation.strategies.conditions import CONDITIONS, LEARNING, PAPER, specs
+from emogen_core.simulation.evaluation.strategies.conditions import ALGORITHMS, CONDITIONS, PAPER, specs
 from emogen_core.simulation.evaluation.strategies.course import Watching, joined
 from emogen_core.simulation.evaluation.strategies.summary import no_information, summary
 from emogen_core.simulation.evaluation.work import SERIAL, parts
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Mapping
 
     from emogen_core.simulation.evaluation.laboratory import Laboratory
-    from emogen_core.simulation.evaluation.specs import Algorithm
     from emogen_core.simulation.evaluation.strategies.conditions import Condition
+    from emogen_core.simulation.evaluation.strategies.course import Course
     from emogen_core.simulation.evaluation.strategies.summary import Summary
     from emogen_core.simulation.evaluation.work import Engine, Progress
 
@@ -59,49 +59,54 @@ class Cell:
         return float(self.learning.judged[-1] / self.paper.judged[-1])
 
 
+@dataclass(frozen=True)
+class Plan:
+    """What is compared.
+
+    Attributes:
+        conditions: names of conditions.
+        searches: of each strategy in each cell; rounded down to as many for each target.
+        purpose: which targets: those to tune on, or those to report on.
+    """
+
+    conditions: tuple[str, ...] = tuple(CONDITIONS)
+    searches: int = 500
+    purpose: str = "held-out"
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be compared."""
+        unknown = [name for name in self.conditions if name not in CONDITIONS]
+        if unknown:
+            raise InvalidInputError(f"conditions: {expected(f'some of {list(CONDITIONS)}', unknown)}")
+        if self.searches < FEWEST:
+            raise InvalidInputError(f"searches: {expected(f'at least {FEWEST}', self.searches)}")
+        if self.purpose not in PURPOSES:
+            raise InvalidInputError(f"purpose: {expected(f'one of {list(PURPOSES)}', self.purpose)}")
+
+
 def compare(
-    laboratory: Laboratory,
-    conditions: Iterable[str] = CONDITIONS,
-    searches: int = 500,
-    purpose: str = "held-out",
-    engine: Engine = SERIAL,
-    progress: Progress = lambda _done, _all: None,
+    laboratory: Laboratory, plan: Plan, engine: Engine = SERIAL, progress: Progress = lambda _done, _all: None
 ) -> list[Cell]:
     """Return both strategies under conditions, for targets of every complexity.
 
     Args:
         laboratory: a rig on one head, and a seed; the same ones give the same numbers.
-        conditions: names of conditions.
-        searches: of each strategy in each cell; rounded down to as many for each target.
-        purpose: which targets: those to tune on, or those to report on.
+        plan: what is compared.
         engine: what does the work; the numbers do not depend on it.
         progress: told after every chunk of work how many are done, of how many.
 
     Raises:
-        InvalidInputError: an unknown condition or purpose, or too few searches.
+        WorkerError: a process that shares the work is gone.
     """
-    wanted = list(dict.fromkeys(conditions))
-    _check(wanted, searches, purpose)
-    runs = specs(wanted, purpose)
+    runs = specs(plan.conditions, plan.purpose)
     laboratory.prepare(runs)
-    made = parts(Watching(laboratory), runs, searches - searches % COUNT, engine, progress)
-
-    def found(condition: Condition, genes: int, algorithm: Algorithm) -> Summary:
-        spec = condition.spec(genes, purpose, algorithm)
-        return summary(joined(made[spec.key]), laboratory.faces(laboratory.meant(spec)))
-
-    def cell(name: str, genes: int) -> Cell:
-        both = (found(CONDITIONS[name], genes, algorithm) for algorithm in (PAPER, LEARNING))
-        return Cell(name, genes, *both, no_information(laboratory.experiment(CONDITIONS[name].spec(genes, purpose, PAPER))))
-
-    return [cell(name, genes) for name in wanted for genes in COMPLEXITIES]
+    made = parts(Watching(laboratory), runs, plan.searches - plan.searches % COUNT, engine, progress)
+    courses = {key: joined(chunks) for key, chunks in made.items()}
+    return [_cell(laboratory, plan, courses, name, genes) for name in plan.conditions for genes in COMPLEXITIES]
 
 
-def _check(conditions: list[str], searches: int, purpose: str) -> None:
-    unknown = [name for name in conditions if name not in CONDITIONS]
-    if unknown:
-        raise InvalidInputError(f"conditions: {expected(f'some of {list(CONDITIONS)}', unknown)}")
-    if searches < FEWEST:
-        raise InvalidInputError(f"searches: {expected(f'at least {FEWEST}', searches)}")
-    if purpose not in PURPOSES:
-        raise InvalidInputError(f"targets: {expected(f'one of {list(PURPOSES)}', purpose)}")
+def _cell(laboratory: Laboratory, plan: Plan, courses: Mapping[str, Course], name: str, genes: int) -> Cell:
+    of = {who: CONDITIONS[name].spec(genes, plan.purpose, who) for who in ALGORITHMS}
+    meant = laboratory.faces(laboratory.meant(of[PAPER]))
+    paper, learning = (summary(courses[of[who].key], meant) for who in ALGORITHMS)
+    return Cell(name, genes, paper, learning, no_information(laboratory.experiment(of[PAPER])))

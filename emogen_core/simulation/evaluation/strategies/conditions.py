@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from emogen_core.simulation.complexity import COMPLEXITIES, name_of
 from emogen_core.simulation.evaluation.judges import RESCALED, VERTEX
@@ -16,9 +16,10 @@ if TYPE_CHECKING:
 
     from emogen_core.simulation.evaluation.specs import Algorithm, Selections
 
-PAPER, LEARNING = "emogen", "preference"
-"""The strategies, by their names in the registry."""
+PAPER: Final = "emogen"
+LEARNING: Final = "preference"
 ALGORITHMS: tuple[Algorithm, ...] = (PAPER, LEARNING)
+"""The strategies, by their names in the registry."""
 
 
 def _no_worse() -> Mapping[int, float]:
@@ -67,9 +68,7 @@ CONDITIONS: dict[str, Condition] = {
         "cosine judge, noise .1", observer=_NOISY, bars=_bars(0.15, 0.25, 0.65, 0.65), informed=True
     ),
     "vertex": Condition("vertex judge", VERTEX, bars=_bars(0.1, 0.2, 0.55, 0.65), informed=True),
-    "vertex-noise": Condition(
-        "vertex judge, noise .1", VERTEX, _NOISY, bars=_bars(0.2, 0.5, 0.85, 0.8), informed=True
-    ),
+    "vertex-noise": Condition("vertex judge, noise .1", VERTEX, _NOISY, bars=_bars(0.2, 0.5, 0.85, 0.8), informed=True),
     "lapses": Condition("lapses 5 %, noise .1", observer=Observer(noise=0.1, lapse=0.05)),
     "left": Condition("likes the left .1, noise .05", observer=Observer(noise=0.05, left=0.1)),
     "elite": Condition("only the best", selections="elite"),

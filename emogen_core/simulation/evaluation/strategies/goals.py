@@ -65,7 +65,7 @@ def _of_faces(cells: Sequence[Cell]) -> Iterator[Goal]:
     yield Goal(f"{title}: faces of generations 1 to 5 no more alike than the paper's", float(excess), 0.0)
     active = _mean(learning, "active")[SPARSE].max(initial=0)
     yield Goal(f"{title}: genes at work in a face up to generation 7", float(active), MOST_ACTIVE)
-    yield Goal(f"{title}: nearly invisible faces", float(_mean(learning, "faint")[1:].mean()), 0.0)
+    yield Goal(f"{title}: nearly invisible faces in a thousand", 1000 * float(_mean(learning, "faint")[1:].mean()), 0.0)
 
 
 def _mean(summaries: Sequence[Summary], name: str) -> np.ndarray:
