@@ -1,4 +1,4 @@
-"""A long computation in a process of its own: it gives way to everybody else, and ends at once where the server does."""
+"""A long computation in a process of its own: it gives way to everybody else, and ends where the server does."""
 
 from __future__ import annotations
 

@@ -1,10 +1,11 @@
 """How many participants a study needs to find a difference of the mean faces of two groups.
 
 The test is of the squared distance between the mean directions of two groups of ``n`` people, against how people vary
-in their groups (the distance-based test of Anderson 2001, which shuffles people). With scatter ``s`` in ``p`` directions
-alike, its statistic is F distributed with ``p`` and ``p (2n - 2)`` degrees of freedom and, where the faces in mind are
-a cosine distance ``d`` apart of which a share ``k`` arrives, with noncentrality ``p n 2 d k / (2 s)``. With one
-direction this is the t test of two groups.
+in their groups (Anderson 2001, doi:10.1111/j.1442-9993.2001.01070.pp.x, who shuffles people). With scatter ``s`` in
+``p`` directions alike its statistic is F distributed with ``p`` and ``p (2n - 2)`` degrees of freedom and, where the
+faces in mind are a cosine distance ``d`` apart of which a share ``k`` arrives, with noncentrality ``p n d k / s``: half
+of ``n`` times the squared distance ``2 d k``, in units of the variance ``s / p`` of a direction. With one direction
+this is the t test of two groups.
 """
 
 from __future__ import annotations
