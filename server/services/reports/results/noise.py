@@ -173,10 +173,10 @@ def _threshold(told: dict[str, Any]) -> Threshold:
 
 
 def _noise(told: dict[str, Any]) -> Noise:
-    vary = {name: Dispersion(**told[name]) for name in ("within", "among")}
-    spreads = {name: Spread(**told[name]) for name in ("error", "apart", "proxy")}
+    error, apart, proxy = (Spread(**told[name]) for name in ("error", "apart", "proxy"))
+    within, among = (Dispersion(**told[name]) for name in ("within", "among"))
     settling = tuple(Spread(**one) for one in told["settling"])
-    return Noise(settling=settling, right=told["right"], kept=told["kept"], **spreads, **vary)
+    return Noise(error, apart, proxy, settling, told["right"], within, among, told["kept"])
 
 
 def _learns(config: StudyConfig) -> bool:

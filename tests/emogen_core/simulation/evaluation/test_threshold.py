@@ -6,6 +6,7 @@ import pytest
 from emogen_core.errors import InvalidInputError
 from emogen_core.search.preference import learning
 from emogen_core.similarity.cosine import cosine_distance
+from emogen_core.simulation import learners
 from emogen_core.simulation.evaluation.specs import RunSpec
 from emogen_core.simulation.evaluation.targets import PEOPLE
 from emogen_core.simulation.evaluation.threshold import (
@@ -97,6 +98,7 @@ def test_a_group_is_held_against_one_of_its_size():
 def test_a_study_whose_strategy_learns_is_told_the_noise_of_that(monkeypatch):
     monkeypatch.setattr(learning, "CHAINS", 4)  # fewer draws only make it quicker
     monkeypatch.setattr(learning, "FIRST", 50)
+    monkeypatch.setattr(learners, "IN_STEP", 40)
     laboratory = small_laboratory(generations=1)
     laboratory.algorithm = "preference"
     found = threshold(laboratory, 100)

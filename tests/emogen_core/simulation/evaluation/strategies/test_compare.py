@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from emogen_core.errors import InvalidInputError
+from emogen_core.simulation import learners
 from emogen_core.simulation.evaluation.strategies import FEWEST, Plan, conditions
 from emogen_core.simulation.evaluation.strategies.compare import compare
 from emogen_core.simulation.evaluation.strategies.tables import tables
@@ -23,6 +24,7 @@ def fewer():
     with pytest.MonkeyPatch.context() as patch:
         for place in (module, conditions):
             patch.setattr(place, "COMPLEXITIES", COMPLEXITIES)
+        patch.setattr(learners, "IN_STEP", 40)
         yield
 
 
