@@ -15,7 +15,7 @@ from emogen_core.search.initial import initial_population
 from emogen_core.search.params import POPULATION
 from emogen_core.search.preference.learning import Turn, faces_of, learn
 from emogen_core.search.preference.proposals import mean_face
-from emogen_core.search.preference.utility import space_of
+from emogen_core.search.preference.utility import COSINE, space_of, utilities
 from emogen_core.search.state import Choice
 from emogen_core.search.streams import BELIEFS, PROPOSALS, option_of, stream
 from emogen_core.simulation.participant import permitted
@@ -47,11 +47,13 @@ class Learned:
         elites: the faces that were marked as best.
         means: (R, generations + 1, K) weights of the mean face of what was believed after every answer.
         shown: (R, generations + 1, 10, G) genomes of all faces.
+        doubt: (R, generations + 1) mean cosine distance of that mean face to the faces that may be meant.
     """
 
     elites: Elites
     means: NDArray[np.float32]
     shown: NDArray[np.float32]
+    doubt: NDArray[np.float32]
 
 
 def learned(experiment: Experiment, seed: Seed, searches: range) -> Learned:
@@ -66,7 +68,9 @@ def learned(experiment: Experiment, seed: Seed, searches: range) -> Learned:
     elites = Elites(
         *(np.concatenate([getattr(one.elites, name) for one in parts]) for name in ("genes", "weights", "right"))
     )
-    return Learned(elites, *(np.concatenate([getattr(one, name) for one in parts]) for name in ("means", "shown")))
+    return Learned(
+        elites, *(np.concatenate([getattr(one, name) for one in parts]) for name in ("means", "shown", "doubt"))
+    )
 
 
 def trial_seed(seed: Seed, search: int) -> int:
@@ -85,7 +89,7 @@ class _Search:
             np.random.default_rng(np.random.SeedSequence(entropy=seed, spawn_key=(number, i))) for i in (1, 2)
         )
         self.population = _first(experiment, self.seed)
-        self.shown, self.elites, self.means, self.right = (list["Floats"]() for _ in range(4))
+        self.shown, self.elites, self.means, self.right, self.doubt = (list["Floats"]() for _ in range(5))
 
     def choose(self) -> None:
         """Choose as the participant does; of the last generation, the elite only."""
@@ -109,6 +113,8 @@ class _Search:
         params = self.experiment.params
         genes = np.zeros((1 + POPULATION, params.gene_count))
         genes[0, self.active] = mean_face(space, sample)
+        every = np.full(len(sample.metric), COSINE)
+        self.doubt.append(1 - utilities(space, genes[:1, self.active], sample.genes, every).mean())
         self.means.append(np.asarray(self.experiment.faces(genes[:1]))[0])
         if len(self.told) <= params.generations:
             faces, choice = self.told[-1]
@@ -144,8 +150,8 @@ def _played(experiment: Experiment, seed: Seed, numbers: Sequence[int]) -> Learn
         samples = learn(space, told, samples, [one.stream(BELIEFS) for one in searches])
         for one, sample in zip(searches, samples, strict=True):
             one.believe(space, sample)
-    weights, means, shown = (
-        np.array([getattr(one, name) for one in searches], np.float32) for name in ("elites", "means", "shown")
+    weights, means, shown, doubt = (
+        np.array([getattr(one, name) for one in searches], np.float32) for name in ("elites", "means", "shown", "doubt")
     )
     genes = np.stack([one.shown[-1][one.told[-1][1].elite - 1] for one in searches])
-    return Learned(Elites(genes, weights, np.array([one.right for one in searches], np.bool_)), means, shown)
+    return Learned(Elites(genes, weights, np.array([one.right for one in searches], np.bool_)), means, shown, doubt)

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
     from emogen_core.simulation.evaluation.laboratory import Laboratory
     from emogen_core.simulation.evaluation.specs import RunSpec
+    from emogen_core.simulation.learners import Learned
     from emogen_core.simulation.runs import Experiment
 
     Floats = NDArray[np.float64]
@@ -40,6 +41,8 @@ class Course:
         alike: (R, N) mean cosine of any two of the ten faces.
         active: (R, N) mean number of genes at work in a face.
         faint: (R, N) share of faces that are nearly invisible.
+        doubt: (R, N) how far it is expected to be from the face in mind by the strategy itself, by cosine.
+        mean_cosine: (R, N) how far it is; both NaN without a mean face.
         intensity: (R,) length of the result as a share of that of the face in mind.
         final: (R, K) weights of the results.
     """
@@ -50,6 +53,8 @@ class Course:
     alike: Floats
     active: Floats
     faint: Floats
+    doubt: Floats
+    mean_cosine: Floats
     intensity: Floats
     final: NDArray[np.float32]
 
@@ -67,7 +72,7 @@ class Watching:
         meant = experiment.faces(targets)[np.arange(begun, begun + searches) % len(targets)]
         if spec.learns:
             found = self.laboratory.learned(spec, number, searches)
-            return _course(experiment, meant, found.elites.weights, found.shown, found.means)
+            return _course(experiment, meant, found.elites.weights, found.shown, found)
         seen: list[Floats] = []
         elites = chunk(experiment, spec.entropy(self.laboratory.seed), number, searches, seen.append)
         return _course(experiment, meant, elites.weights, np.stack(seen, 1)[:searches], None)
@@ -83,21 +88,24 @@ def _course(
     meant: NDArray[np.floating],
     elites: NDArray[np.float32],
     shown: NDArray[np.floating],
-    means: NDArray[np.float32] | None,
+    found: Learned | None,
 ) -> Course:
-    """Return the course of (R, N, K) best faces, (R, N, 10, G) shown ones and (R, N, K) mean faces."""
+    """Return the course of (R, N, K) best faces, (R, N, 10, G) shown ones and, of a strategy that learns, the rest."""
     target = np.asarray(meant, np.float64)[:, None]
     best = elites.astype(np.float64)
     judged = experiment.metric(best, target)
-    believed = np.full_like(judged, np.nan) if means is None else experiment.metric(means.astype(np.float64), target)
+    nothing = np.full_like(judged, np.nan)
+    means = None if found is None else found.means.astype(np.float64)
     strongest = shown.max(axis=-1)
     return Course(
         judged,
         cosine_distance(best, target),
-        believed,
+        nothing if means is None else experiment.metric(means, target),
         _alike(experiment, shown),
         (shown > 0).sum(axis=-1).mean(axis=-1),
         (strongest < FAINT).mean(axis=-1),
+        nothing if found is None else found.doubt.astype(np.float64),
+        nothing if means is None else cosine_distance(means, target),
         np.linalg.norm(best[:, -1], axis=-1) / np.maximum(np.linalg.norm(target[:, 0], axis=-1), _LEAST),
         elites[:, -1],
     )

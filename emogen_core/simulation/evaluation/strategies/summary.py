@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from emogen_core.similarity.cosine import cosine_distance
+from emogen_core.simulation.evaluation.strategies.stopping import Stop, stops
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -38,6 +39,7 @@ class Summary:
         scatter, bias: of the last best faces.
         intensity: mean length of a result as a share of that of the target.
         alike, active, faint: (N,) means over the faces that were shown.
+        stops: what comes of trials that end early; none of a strategy that does not know how sure it is.
     """
 
     judged: Floats
@@ -50,6 +52,7 @@ class Summary:
     alike: Floats
     active: Floats
     faint: Floats
+    stops: tuple[Stop, ...] = ()
 
 
 def summary(course: Course, meant: NDArray[np.floating]) -> Summary:
@@ -59,7 +62,7 @@ def summary(course: Course, meant: NDArray[np.floating]) -> Summary:
         course.judged.mean(0), course.cosine.mean(0), course.believed.mean(0),
         float(last.std(ddof=1) / np.sqrt(len(last))),
         scatter(course.final, len(meant)), bias(course.final, meant), float(course.intensity.mean()),
-        course.alike.mean(0), course.active.mean(0), course.faint.mean(0),
+        course.alike.mean(0), course.active.mean(0), course.faint.mean(0), stops(course),
     )  # fmt: skip
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from emogen_core.simulation.complexity import COUNT
 from emogen_core.simulation.evaluation.strategies.conditions import ALGORITHMS, LEARNING, PAPER
 from emogen_core.simulation.evaluation.strategies.goals import goals
+from emogen_core.simulation.evaluation.strategies.stopping import EARLIEST
 from emogen_core.simulation.evaluation.table import Column, Row, Table
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ NONE = "no information"
 
 def tables(cells: Sequence[Cell]) -> list[Table]:
     """Return all tables of a comparison, the goals first."""
-    return [_goals(cells), _last(cells), _errors(cells), *_faces(cells)]
+    return [_goals(cells), _last(cells), _errors(cells), *_faces(cells), _stopping(cells)]
 
 
 def _goals(cells: Sequence[Cell]) -> Table:
@@ -90,6 +91,27 @@ def _faces(cells: Sequence[Cell]) -> list[Table]:
         _curves(cells, "strategy-active", "Genes at work in a face", "Mean over the ten faces.",
                 lambda one: one.active),
     ]  # fmt: skip
+
+
+def _stopping(cells: Sequence[Cell]) -> Table:
+    """Return what comes of trials that end once the strategy is sure enough."""
+    rows = tuple(
+        Row(f"{cell.label}: at {one.limit:g}", (one.pages, one.early, one.error, one.expected, one.last))
+        for cell in cells
+        for one in cell.learning.stops
+    )
+    columns = (
+        Column("pages", 1, "of ten faces, on average"),
+        Column("early %", 0, "trials that end before the last generation"),
+        Column("error", help="of the mean face where it ends, by cosine"),
+        Column("expected", help="by the strategy itself"),
+        Column("error at last", help="of the mean face without stopping"),
+    )
+    return Table(
+        "strategy-stopping", "Trials that end early", "", columns, rows,
+        why=f"A trial ends once {LEARNING} expects its mean face to be within a limit of what is meant,"
+        f" after {EARLIEST + 1} pages at the earliest; the mean face is the result.",
+    )  # fmt: skip
 
 
 def _curves(cells: Sequence[Cell], name: str, title: str, why: str, curve: Curve) -> Table:

@@ -6,6 +6,7 @@ import numpy as np
 
 from emogen_core.simulation.complexity import COMPLEXITIES
 from emogen_core.simulation.evaluation.strategies.compare import Cell
+from emogen_core.simulation.evaluation.strategies.stopping import Stop
 from emogen_core.simulation.evaluation.strategies.summary import Summary
 
 LAST = 10
@@ -16,7 +17,8 @@ def made_summary(last=0.4, alike=0.3, active=9.0, **changes):
     """Return a summary whose error falls to a last one."""
     judged = _FALLING * last / 0.4
     flat = np.ones(LAST + 1)
-    plain = Summary(judged, judged, judged / 2, 0.01, 0.3, 0.1, 1.0, alike * flat, active * flat, 0 * flat)
+    stops = (Stop(0.1, 7.5, 60.0, 0.2, 0.1, 0.15),)
+    plain = Summary(judged, judged, judged / 2, 0.01, 0.3, 0.1, 1.0, alike * flat, active * flat, 0 * flat, stops)
     return replace(plain, **changes)
 
 
