@@ -41,13 +41,20 @@ def participants(
     for name, value in (("distance", distance), ("power", power), ("alpha", alpha)):
         if not 0 < value < 1:
             raise InvalidInputError(f"{name}: {expected('a number between 0 and 1', value)}")
-    if power_of(dispersion, share, distance, MOST, alpha) < power:
-        return None
-    low, high = 1, MOST  # low is never enough, high always
+
+    def enough(people: int) -> bool:
+        return power_of(dispersion, share, distance, people, alpha) >= power
+
+    # From below: far beyond what is enough the distribution function fails.
+    high = 2
+    while not enough(high):
+        if high >= MOST:
+            return None
+        high = min(2 * high, MOST)
+    low = high // 2
     while high - low > 1:
         middle = (low + high) // 2
-        enough = power_of(dispersion, share, distance, middle, alpha) >= power
-        low, high = (low, middle) if enough else (middle, high)
+        low, high = (low, middle) if enough(middle) else (middle, high)
     return high
 
 

@@ -42,6 +42,15 @@ def test_more_scatter_less_share_and_a_smaller_difference_take_more_people():
     assert power_of(Dispersion(0.3, 5.0), 0.9, 0.05, base - 1) < 0.8 <= power_of(Dispersion(0.3, 5.0), 0.9, 0.05, base)
 
 
+@pytest.mark.parametrize("dimension", [1.0, 8.0, 45.0])
+@pytest.mark.parametrize("share", [0.05, 0.25, 0.9])
+def test_half_the_squared_distance_takes_about_twice_the_people(dimension, share):
+    """In many directions, and with many people, the distribution is at the edge of what can be computed."""
+    needed = [participants(Dispersion(0.6, dimension), share, distance) for distance in (0.2, 0.1, 0.05, 0.025)]
+    ratios = np.array(needed[1:]) / needed[:-1]
+    assert ((ratios > 1.6) & (ratios < 2.1)).all(), needed
+
+
 def test_what_nobody_can_find_is_not_a_number():
     assert participants(Dispersion(0.3, 5.0), 0.0, 0.05) is None
     assert participants(Dispersion(0.0, 1.0), 1.0, 0.05) == 2
