@@ -1,8 +1,8 @@
 """The searches of one strategy under one condition, as numbers: noise as scatter and as bias, and what was shown.
 
-``scatter`` is ``1 - |mean unit vector|^2`` of the results for one target, without the bias that few searches have, on
-average over targets: it sets how many participants a study needs. ``bias`` is the cosine distance of the average of
-these results from the target: no number of participants takes it away.
+``scatter`` is ``1 - |mean unit vector|^2`` of the results for one target, on average over targets: it sets how many
+participants a study needs. ``bias`` is the cosine distance of that mean from the target: no number of participants
+takes it away. Both are told as of many searches: what chance adds to the length of a mean of few is taken off.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from emogen_core.similarity.cosine import cosine_distance
+from emogen_core.simulation.evaluation.dispersion import units
 from emogen_core.simulation.evaluation.strategies.stopping import Stop, stops
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
+_LEAST = 1e-12
 STRENGTHS = np.linspace(0.02, 1, 50)
 """Of the face whose genes are all the same: the one that suits best stands for no information."""
 
@@ -68,16 +69,22 @@ def summary(course: Course, meant: NDArray[np.floating]) -> Summary:
 
 def scatter(final: NDArray[np.floating], targets: int) -> float:
     """Return the mean scatter of (R, K) results by target, search i for target i % targets."""
-    unit = final / np.maximum(np.linalg.norm(final, axis=1, keepdims=True), 1e-12)
-    own = unit.reshape(-1, targets, unit.shape[-1]).astype(np.float64)
-    lengths = np.square(own.mean(0)).sum(-1)
-    return float((1 - lengths).mean() * len(own) / (len(own) - 1))
+    _, lengths = _means(final, targets)
+    return float(1 - lengths.mean())
 
 
 def bias(final: NDArray[np.floating], meant: NDArray[np.floating]) -> float:
-    """Return the mean cosine distance of the averaged results from the (M, K) targets, search i for target i % M."""
-    average = final.reshape(-1, len(meant), final.shape[-1]).mean(0)
-    return float(cosine_distance(average, meant).mean())
+    """Return the mean cosine distance of the averaged (R, K) results from the (M, K) targets, search i for i % M."""
+    means, lengths = _means(final, len(meant))
+    along = (means * units(meant)).sum(-1)
+    return float((1 - along / np.sqrt(np.maximum(np.maximum(lengths, along**2), _LEAST))).mean())
+
+
+def _means(final: NDArray[np.floating], targets: int) -> tuple[Floats, Floats]:
+    """Return the (M, K) mean directions by target, and (M,) their squared lengths without what chance adds to them."""
+    own = units(final).reshape(-1, targets, final.shape[-1])
+    means, searches = own.mean(0), len(own)
+    return means, (searches * np.square(means).sum(-1) - np.square(own).sum(-1).mean(0)) / (searches - 1)
 
 
 def no_information(experiment: Experiment) -> float:

@@ -56,7 +56,8 @@ def _last(cells: Sequence[Cell]) -> Table:
             "No information: the face whose genes are all the same, at the strength that suits best; nobody answers"
             " for it.",
             "Scatter: 1 - |mean unit vector|² of the results for one target; it sets how many participants are needed."
-            " Bias: cosine distance of their average from the target; no number of participants takes it away."
+            " Bias: cosine distance of that mean from the target; no number of participants takes it away. Both without"
+            " what chance adds where searches are few."
             " Strength: length of a result as a share of that of the target.",
         ),
     )  # fmt: skip

@@ -35,6 +35,16 @@ def test_scatter_is_told_without_the_bias_of_few_searches():
     assert few == pytest.approx(11 * 0.05**2, rel=0.1)
 
 
+def test_so_is_bias():
+    """Of two searches a third of the scatter here would count as bias."""
+    many = results(4000, 0.2, shift=0.5)
+    few = np.mean([bias(many[i * 8 : i * 8 + 8], MEANT) for i in range(2000)])
+    assert few == pytest.approx(bias(many, MEANT), abs=0.01)
+    unbiased = results(4000, 0.2)
+    assert np.mean([bias(unbiased[i * 8 : i * 8 + 8], MEANT) for i in range(2000)]) < 0.03
+    assert bias(unbiased, MEANT) < 0.001
+
+
 def test_a_summary_is_the_means_of_its_course():
     laboratory, spec = small_laboratory(), RunSpec(name_of(3, "tuning"))
     course = Watching(laboratory).chunk(spec, 0, 40)
