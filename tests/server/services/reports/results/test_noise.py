@@ -3,13 +3,19 @@
 import hashlib
 import json
 import logging
+import threading
 from dataclasses import asdict, replace
 
+import numpy as np
 import pytest
 
 from emogen_core.search import preference
 from emogen_core.search.strategies import STRATEGIES
+from emogen_core.simulation.evaluation.laboratory import Laboratory
+from emogen_core.simulation.evaluation.specs import RunSpec
 from emogen_core.simulation.evaluation.threshold import threshold
+from server.reporting.noise import laboratory
+from server.services.own_call import made_aside
 from server.services.reports.results import noise as module
 from server.services.reports.results.noise import NoiseOfSearch, settling_of
 from server.services.trials.evolution import simulated
@@ -124,3 +130,12 @@ def test_files_of_the_published_search_are_named_as_before_rigs_told_their_geome
     known(noise, config)
     name = hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()
     assert [file.name for file in noise.folder.iterdir()] == [f"{name}.json"]
+
+
+def test_a_laboratory_goes_to_a_process_and_gives_the_same_there(rig):
+    config = learning(generations=1)
+    there = laboratory(rig, config, 1)
+    spec = RunSpec("people", algorithm=there.algorithm)
+    assert spec.learns
+    made = made_aside(threading.Event(), Laboratory.chunk, there, spec, 0, 2)
+    np.testing.assert_array_equal(made.weights, there.chunk(spec, 0, 2).weights)
