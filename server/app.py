@@ -22,6 +22,7 @@ from .routes.admin import (
     models,
     monitor,
     participants,
+    planning,
     preview,
     recruit,
     results,
@@ -40,7 +41,7 @@ if TYPE_CHECKING:
 
 
 PARTICIPANT = (arrival, participant, plain_forms, pages, portraits)
-STUDY = (design, monitor, recruit, participants, results, analysis, thumbnails, data, preview)
+STUDY = (design, planning, monitor, recruit, participants, results, analysis, thumbnails, data, preview)
 ADMIN = (account, making, studies, *STUDY, heads, models, find, tokens, team, server)
 INSIDE = "http://emogen.local"
 """Where simulated participants of this process find its own interface."""

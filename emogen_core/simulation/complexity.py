@@ -22,6 +22,12 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
+COMPLEXITIES = (1, 3, 12, 32)
+"""Genes of the targets by which strategies are compared."""
+COUNT = 20
+"""Targets of a complexity."""
+PURPOSES = {"tuning": 1, "held-out": 2029}
+"""Seeds of the targets that settings are tuned on, and of those that are reported on: nobody tunes on these."""
 SPARSE = 20
 """Most genes of a target that are either at work or not."""
 NOTABLE = 0.1
@@ -39,6 +45,21 @@ class Relative:
     def __call__(self, weights: NDArray[np.floating], target: NDArray[np.floating], /) -> Floats:
         """Return the (...,) distances of (..., K) weights to targets that broadcast to them; 1 for a neutral face."""
         return np.asarray(self.metric(weights, target) / self.metric(np.zeros_like(target), target))
+
+
+def name_of(genes: int, purpose: str) -> str:
+    """Return the name by which runs know targets."""
+    return f"{purpose}, {genes} genes"
+
+
+def named(rig: Rig, active: Sequence[int], name: str) -> Floats:
+    """Return the (COUNT, G) targets that `name_of` names.
+
+    Raises:
+        KeyError: there are none of this name.
+    """
+    genes, purpose = {name_of(genes, purpose): (genes, purpose) for purpose in PURPOSES for genes in COMPLEXITIES}[name]
+    return drawn(rig, active, genes, COUNT, PURPOSES[purpose])
 
 
 def drawn(rig: Rig, active: Sequence[int], genes: int, count: int, seed: int) -> Floats:

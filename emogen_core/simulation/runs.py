@@ -86,9 +86,9 @@ def simulate(experiment: Experiment, seed: Seed, repetitions: int = 500) -> Elit
     return joined([chunk(experiment, seed, number, searches) for number, searches in chunks(repetitions)])
 
 
-def chunks(repetitions: int) -> Iterator[tuple[int, int]]:
-    """Yield the number and the size of the chunks that as many searches are made in."""
-    return enumerate(min(CHUNK, repetitions - begun) for begun in range(0, repetitions, CHUNK))
+def chunks(repetitions: int, most: int = CHUNK) -> Iterator[tuple[int, int]]:
+    """Yield the number and the size of the chunks that as many searches are made in, `most` searches in each."""
+    return enumerate(min(most, repetitions - begun) for begun in range(0, repetitions, most))
 
 
 def joined(parts: Sequence[Elites]) -> Elites:
@@ -96,7 +96,13 @@ def joined(parts: Sequence[Elites]) -> Elites:
     return Elites(*(np.concatenate([getattr(part, one.name) for part in parts]) for one in fields(Elites)))
 
 
-def chunk(experiment: Experiment, seed: Seed, number: int, searches: int) -> Elites:
+def chunk(
+    experiment: Experiment,
+    seed: Seed,
+    number: int,
+    searches: int,
+    watch: Callable[[Floats], object] = lambda _population: None,
+) -> Elites:
     """Return the elites of one chunk.
 
     Args:
@@ -104,6 +110,7 @@ def chunk(experiment: Experiment, seed: Seed, number: int, searches: int) -> Eli
         seed: of the experiment.
         number: which chunk, from 0.
         searches: how many of its searches.
+        watch: told the (CHUNK, 10, G) faces of every generation.
     """
     params, observer = experiment.params, experiment.observer
     chance, judging, drifting = _streams(seed, number)
@@ -112,6 +119,7 @@ def chunk(experiment: Experiment, seed: Seed, number: int, searches: int) -> Eli
     meant = experiment.faces(mind)
     weights, right = [], []
     for generation in range(params.generations + 1):
+        watch(population)
         shown = _weights(experiment, population)
         distances = experiment.metric(shown, meant[:, None])
         ranks = observer.ranked(distances, judging)

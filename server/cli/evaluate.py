@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import json
-import sys
 from contextlib import contextmanager
-from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from threadpoolctl import threadpool_limits
@@ -23,10 +21,11 @@ from emogen_core.simulation.evaluation.laboratory import Laboratory
 from emogen_core.simulation.evaluation.work import engine
 
 from ..evaluation.faces import Studio
-from ..evaluation.files import write
+from ..evaluation.files import plain, write
 from ..evaluation.report import Facts
 from ..release import release
-from .common import made_folder, plainly, stop, unwritable
+from .common import made_folder, plainly, progress, stop, unwritable
+from .strategies import strategies_
 from .threshold import Seed, threshold_
 
 if TYPE_CHECKING:
@@ -39,6 +38,7 @@ QUICK, FULL = 100, 500
 HEAD = "female"
 app = typer.Typer(help="How far the search can be trusted, by simulation.")
 app.command("threshold")(threshold_)
+app.command("strategies")(strategies_)
 Out = Annotated[Path, typer.Option("--out", help="Folder to write to.")]
 Quick = Annotated[bool, typer.Option("--quick", help=f"{QUICK} searches for every number instead of {FULL}.")]
 Workers = Annotated[
@@ -70,7 +70,7 @@ def evaluate_(  # noqa: PLR0913, PLR0917 - typer reads the options from the sign
                 tables = _evaluated(laboratory, names, searches, engine)
             _write(tables, facts, folder, studio)
     if json_:
-        typer.echo(json.dumps({table.name: _plain(table) for table in tables}, indent=2, allow_nan=False))
+        typer.echo(json.dumps({table.name: plain(table) for table in tables}, indent=2, allow_nan=False))
     else:
         _tell(tables, folder)
 
@@ -130,13 +130,8 @@ def _engine(workers: int, dask: str | None) -> Iterator[Engine]:
 
 
 def _evaluated(laboratory: Laboratory, names: list[str], searches: int, engine: Engine) -> list[Table]:
-    with typer.progressbar(length=1, label="Simulating", file=sys.stderr) as bar:
-
-        def progress(done: int, of: int) -> None:
-            bar.length = of
-            bar.update(done - bar.pos)
-
-        return evaluate(laboratory, names, searches, engine, progress)
+    with progress("Simulating") as done:
+        return evaluate(laboratory, names, searches, engine, done)
 
 
 def _write(tables: list[Table], facts: Facts, folder: Path, studio: Studio | None) -> None:
@@ -145,17 +140,6 @@ def _write(tables: list[Table], facts: Facts, folder: Path, studio: Studio | Non
         write(tables, facts, folder, studio, TABLES)
     except OSError as error:
         raise unwritable(folder, error) from error
-
-
-def _plain(table: Table) -> dict[str, Any]:
-    return {
-        "agreement": table.agreement,
-        "verdict": table.verdict,
-        "findings": [asdict(finding) for finding in table.findings],
-        "notes": table.notes,
-        "columns": [column.name for column in table.columns],
-        "rows": [asdict(row) for row in table.rows],
-    }
 
 
 def _tell(tables: list[Table], folder: Path) -> None:

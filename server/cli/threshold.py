@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from emogen_core.face.bundled import load_bundled_rig
-from emogen_core.simulation.evaluation.threshold import SEARCHES, threshold
+from emogen_core.simulation.evaluation.threshold import LEARNING_SEARCHES, SEARCHES, threshold
 
 from ..reporting.noise import laboratory, search_key
 from .common import plainly
@@ -22,12 +22,19 @@ if TYPE_CHECKING:
     from ..services.config import StudyConfig
 
 File = Annotated[Path, typer.Option("--study", help="A study's file, YAML or JSON.")]
-Searches = Annotated[int, typer.Option(min=100, max=5000, help="Searches for each kind of participant.")]
+Searches = Annotated[
+    int | None,
+    typer.Option(
+        min=100,
+        max=5000,
+        help=f"Searches for each kind of participant; {SEARCHES}, or {LEARNING_SEARCHES} with a strategy that learns.",
+    ),
+]
 Seed = Annotated[int, typer.Option(min=0, help="The same seed gives the same numbers.")]
 Json = Annotated[bool, typer.Option("--json", help="Print the numbers as JSON.")]
 
 
-def threshold_(study: File, searches: Searches = SEARCHES, seed: Seed = 1, json_: Json = False) -> None:
+def threshold_(study: File, searches: Searches = None, seed: Seed = 1, json_: Json = False) -> None:
     """Simulate the noise of a study's own search: how far from what was meant its results are by chance alone."""
     with plainly():
         rig = load_bundled_rig()

@@ -65,6 +65,18 @@ def markdown(tables: Sequence[Table], facts: Facts) -> str:
     return "\n".join([head, *(_section(table) for table in tables)])
 
 
+def plain(table: Table) -> dict[str, Any]:
+    """Return a table as plain data, for JSON."""
+    return {
+        "agreement": table.agreement,
+        "verdict": table.verdict,
+        "findings": [asdict(finding) for finding in table.findings],
+        "notes": table.notes,
+        "columns": [column.name for column in table.columns],
+        "rows": [asdict(row) for row in table.rows],
+    }
+
+
 def _section(table: Table) -> str:
     said = [f"- {one.says} **{'Holds' if one.holds else 'Does not hold'}:** {one.here}" for one in table.findings]
     rows = [

@@ -27,4 +27,4 @@ def laboratory(rig: Rig, config: StudyConfig, seed: int) -> Laboratory:
         InvalidError: the study's options do not fit the rig.
     """
     params, drawn = simulated(rig, config)
-    return Laboratory(rig, rig.identities[0], seed, params, drawn=drawn)
+    return Laboratory(rig, rig.identities[0], seed, params, drawn=drawn, algorithm=config.search.strategy)

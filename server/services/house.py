@@ -40,6 +40,7 @@ from .reports.monitor.overview import Overview
 from .reports.participants.record import Records
 from .reports.participants.roster import Roster
 from .reports.results.noise import NoiseOfSearch
+from .reports.results.planning import Planning
 from .reports.results.results import StudyResults
 from .reports.tables.export import Exports
 from .studies.editing.editor import Editor
@@ -91,6 +92,7 @@ class House:
     roster: Roster
     records: Records
     noise: NoiseOfSearch
+    planning: Planning
     results: StudyResults
     analyst: Analyst
     analyses: Analyses
@@ -187,6 +189,7 @@ def build_house(
         roster=Roster(database),
         records=Records(journal, noise),
         noise=noise,
+        planning=Planning(journal, noise),
         results=StudyResults(journal, noise),
         analyst=analyst,
         analyses=Analyses(database, exports, analyst, models),

@@ -6,16 +6,16 @@ Dask is an extra of the package (`emogen-study[dask]`); the workers need this pa
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from emogen_core.errors import EmogenError, WorkerError
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Generator, Sequence
 
-    from emogen_core.simulation.evaluation.laboratory import Laboratory
-    from emogen_core.simulation.evaluation.work import Made, Task
-    from emogen_core.simulation.runs import Elites
+    from emogen_core.simulation.evaluation.work import Maker, Task
+
+T = TypeVar("T")
 
 PATIENCE = "4s"
 """How long a scheduler, or a first worker, may take to answer."""
@@ -39,14 +39,14 @@ class DaskCluster:
         except (OSError, ValueError) as error:
             raise EmogenError(f"No Dask scheduler answers at {address}: {error}.") from error
 
-    def run(self, laboratory: Laboratory, todo: Sequence[Task]) -> Made:
+    def run(self, maker: Maker[T], todo: Sequence[Task]) -> Generator[tuple[Task, T], None, None]:
         """Yield every task with what came of it, as it is done; stop the rest when closed.
 
         Raises:
             WorkerError: there is no worker, workers die of a task, or the scheduler is gone.
         """
         try:
-            there = self._client.scatter(laboratory, broadcast=True, hash=False)
+            there = self._client.scatter(maker, broadcast=True, hash=False)
             waiting = {self._client.submit(_work, there, task, pure=False): task for task in todo}
             for future in self._dask.as_completed(list(waiting)):
                 yield waiting.pop(future), future.result()
@@ -69,5 +69,5 @@ def _distributed() -> Any:
         raise EmogenError("Dask is not installed: pip install 'emogen-study[dask]'.") from error
 
 
-def _work(laboratory: Laboratory, task: Task) -> Elites:
-    return laboratory.chunk(task.spec, task.number, task.searches)
+def _work(maker: Maker[T], task: Task) -> T:
+    return maker.chunk(task.spec, task.number, task.searches)

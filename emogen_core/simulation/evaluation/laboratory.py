@@ -9,9 +9,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from emogen_core.correctives.pipeline import shape_weights
-from emogen_core.similarity.catalogue import Material, Metric, metric
+from emogen_core.similarity.catalogue import Material, Metric
+from emogen_core.simulation.complexity import named
+from emogen_core.simulation.evaluation.judges import judge
 from emogen_core.simulation.evaluation.learning import HAPPY, Made, made_by_people, starts
 from emogen_core.simulation.evaluation.targets import EMOTIONS, SEED, targets
+from emogen_core.simulation.learners import learned
 from emogen_core.simulation.participant import selection_count
 from emogen_core.simulation.runs import Elites, Experiment, chunk
 
@@ -22,7 +25,8 @@ if TYPE_CHECKING:
 
     from emogen_core.face.rig import Rig
     from emogen_core.search.params import SearchParams
-    from emogen_core.simulation.evaluation.specs import RunSpec, Selections
+    from emogen_core.simulation.evaluation.specs import Algorithm, RunSpec, Selections
+    from emogen_core.simulation.learners import Learned
 
     Genomes = NDArray[np.float64]
 
@@ -49,6 +53,7 @@ class Laboratory:
         params: the search, for example that of a study.
         pause: called before every batch of faces, by those who share a processor with people.
         drawn: (S, 10, G) fixed first populations one of which every search of a study draws; None without a choice.
+        algorithm: of a study's own search, for what is simulated of it.
         starts: fixed first populations by name, (10, G).
     """
 
@@ -58,6 +63,7 @@ class Laboratory:
     params: SearchParams
     pause: Callable[[], object] | None = None
     drawn: Genomes | None = None
+    algorithm: Algorithm = "emogen"
     starts: dict[str, Genomes] = field(init=False)
     _targets: dict[str, Genomes] = field(init=False)
     _made: dict[str, Made] = field(default_factory=dict, init=False)
@@ -108,6 +114,8 @@ class Laboratory:
         """
         if name == MEAN_HAPPY and name not in self._targets:
             self._targets[name] = self.made(HAPPY).genes.mean(0)
+        if name not in self._targets:
+            self._targets[name] = named(self.rig, self.params.active, name)
         return self._targets[name]
 
     def meant(self, spec: RunSpec) -> Genomes:
@@ -119,7 +127,7 @@ class Laboratory:
         return 0.5 * self._reach(spec)
 
     def metric(self, name: str) -> Metric:
-        """Return a metric of the catalogue, made from this laboratory's material.
+        """Return a metric of the catalogue or of a judge beyond it, made from this laboratory's material.
 
         Raises:
             InvalidInputError: there is none of this name.
@@ -127,7 +135,7 @@ class Laboratory:
         if name not in self._metrics:
             shapes = len(self.rig.shape_names)
             material = Material(self.rig.gene_to_core, shapes, lambda: self.offsets, lambda: self.training)
-            self._metrics[name] = metric(name, material)
+            self._metrics[name] = judge(name, material)
         return self._metrics[name]
 
     def experiment(self, spec: RunSpec) -> Experiment:
@@ -151,7 +159,14 @@ class Laboratory:
 
     def chunk(self, spec: RunSpec, number: int, searches: int) -> Elites:
         """Return one chunk of a run."""
+        if spec.learns:
+            return self.learned(spec, number, searches).elites
         return chunk(self.experiment(spec), spec.entropy(self.seed), number, searches)
+
+    def learned(self, spec: RunSpec, number: int, searches: int) -> Learned:
+        """Return one chunk of a run whose searches learn."""
+        begun = number * spec.chunk
+        return learned(self.experiment(spec), spec.entropy(self.seed), range(begun, begun + searches))
 
     def _reach(self, spec: RunSpec) -> Genomes:
         """Return (G,) ones where a run's search moves a gene."""

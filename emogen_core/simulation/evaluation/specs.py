@@ -7,6 +7,7 @@ import json
 from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
+from emogen_core.simulation import learners, runs
 from emogen_core.simulation.observer import Observer
 
 if TYPE_CHECKING:
@@ -14,6 +15,8 @@ if TYPE_CHECKING:
 
 Selections = Literal["paper", "three", "elite"]
 """How many faces are selected: 2, then 4, then 5; always three; only the best."""
+Algorithm = Literal["emogen", "pressure", "preference"]
+"""The published search; with more selection pressure; the one that learns from every choice."""
 
 
 @dataclass(frozen=True)
@@ -22,11 +25,11 @@ class RunSpec:
 
     Attributes:
         target: name of a target of the laboratory.
-        metric: name in the catalogue, by which the participant judges.
+        metric: name in the catalogue or of a judge beyond it (`judges`), by which the participant judges.
         search: options of the search other than the rig's defaults, for example ``{"activation": (1, 3)}``.
         selections: how many faces are selected in each generation.
         observer: how well the participant judges.
-        algorithm: the published one, or with more selection pressure.
+        algorithm: that searches.
         start: name of a fixed first population; empty for the protocol.
         genes: how many genes the search has, 0 for all; the target has no others then.
     """
@@ -36,7 +39,7 @@ class RunSpec:
     search: Mapping[str, Any] = field(default_factory=dict)
     selections: Selections = "paper"
     observer: Observer = field(default_factory=Observer)
-    algorithm: Literal["emogen", "pressure"] = "emogen"
+    algorithm: Algorithm = "emogen"
     start: str = ""
     genes: int = 0
 
@@ -44,6 +47,16 @@ class RunSpec:
     def key(self) -> str:
         """Return what stands for this run: equal runs have equal keys, so no table pays for another's run again."""
         return json.dumps(asdict(self), sort_keys=True, default=list)
+
+    @property
+    def learns(self) -> bool:
+        """Return whether the search learns from every choice."""
+        return self.algorithm == "preference"
+
+    @property
+    def chunk(self) -> int:
+        """Return how many searches are made at a time; those that learn take long and go by single streams."""
+        return learners.CHUNK if self.learns else runs.CHUNK
 
     def entropy(self, seed: int) -> tuple[int, int]:
         """Return the entropy of this run's numbers: the same for all runs with the same target and start.

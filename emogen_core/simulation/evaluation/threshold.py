@@ -16,10 +16,11 @@ import numpy as np
 
 from emogen_core.errors import InvalidInputError, expected
 from emogen_core.similarity.cosine import cosine_distance
+from emogen_core.simulation.evaluation.dispersion import Dispersion, dispersion, kept
 from emogen_core.simulation.evaluation.laboratory import MEAN_HAPPY
 from emogen_core.simulation.evaluation.results import Results, Spread, averaged, spread
 from emogen_core.simulation.evaluation.specs import RunSpec
-from emogen_core.simulation.evaluation.targets import PEOPLE
+from emogen_core.simulation.evaluation.targets import EMOTIONS, PEOPLE
 from emogen_core.simulation.evaluation.work import make
 from emogen_core.simulation.observer import FAITHFUL, Observer
 
@@ -27,9 +28,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from emogen_core.simulation.evaluation.laboratory import Laboratory
+    from emogen_core.simulation.evaluation.specs import Algorithm
 
 SEARCHES = 500
 """As many as the paper's: ten for each of fifty people."""
+LEARNING_SEARCHES = 250
+"""Of a strategy that learns, five for each: such a search takes a third of a second, a thousand times the paper's."""
 TYPICAL = ("target 2", MEAN_HAPPY)
 """The targets of the paper's threshold: those of many genes, which people are likely to mean."""
 NOISY = Observer(noise=0.1)
@@ -48,6 +52,9 @@ class Noise:
         proxy: of a result to the mean of the other results for the same face in mind.
         settling: of the best face of each generation but the last to the result of its search.
         right: share of choices in which the face marked as best was the nearest one.
+        within: how results for the same face in mind vary: by the search alone.
+        among: how results of different people vary who mean the same emotion, each with a face of their own.
+        kept: share of the squared distance between two faces in mind that arrives in results.
     """
 
     error: Spread
@@ -55,6 +62,9 @@ class Noise:
     proxy: Spread
     settling: tuple[Spread, ...]
     right: float
+    within: Dispersion
+    among: Dispersion
+    kept: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,21 +88,28 @@ class Threshold:
     paper: Spread
 
 
-def threshold(laboratory: Laboratory, searches: int = SEARCHES) -> Threshold:
-    """Return the noise of the laboratory's search.
+def usual_searches(algorithm: Algorithm) -> int:
+    """Return how many searches the noise of a strategy rests on where nobody asks for another number."""
+    return LEARNING_SEARCHES if RunSpec("people", algorithm=algorithm).learns else SEARCHES
+
+
+def threshold(laboratory: Laboratory, searches: int | None = None) -> Threshold:
+    """Return the noise of the laboratory's search, by the laboratory's strategy.
 
     Args:
         laboratory: a rig, a head, the search and a seed; the same ones give the same numbers.
-        searches: at least two for each of the people; rounded down to as many for each.
+        searches: at least two for each of the people; rounded down to as many for each. By default as many as
+            are usual for the strategy.
 
     Raises:
         InvalidInputError: too few searches.
     """
-    if searches < 2 * PEOPLE:
-        raise InvalidInputError(f"searches: {expected(f'at least {2 * PEOPLE}', searches)}")
-    count = searches - searches % PEOPLE
-    kinds = [RunSpec("people", observer=observer) for observer in (FAITHFUL, NOISY, RANDOM)]
-    typical = [RunSpec(target) for target in TYPICAL]
+    wanted = usual_searches(laboratory.algorithm) if searches is None else searches
+    if wanted < 2 * PEOPLE:
+        raise InvalidInputError(f"searches: {expected(f'at least {2 * PEOPLE}', wanted)}")
+    count, how = wanted - wanted % PEOPLE, laboratory.algorithm
+    kinds = [RunSpec("people", observer=observer, algorithm=how) for observer in (FAITHFUL, NOISY, RANDOM)]
+    typical = [RunSpec(target, algorithm=how) for target in TYPICAL]
     results = Results(laboratory, make(laboratory, [*kinds, *typical], count))
     paper = averaged([results.last(spec) for spec in typical])
     faithful, noisy, random = (_noise(results, spec) for spec in kinds)
@@ -115,7 +132,7 @@ def convergence(laboratory: Laboratory, size: int, observer: Observer = FAITHFUL
     """
     if size < 2:
         raise InvalidInputError(f"size: {expected('at least 2', size)}")
-    spec = RunSpec("people", observer=observer)
+    spec = RunSpec("people", observer=observer, algorithm=laboratory.algorithm)
     (elites,) = make(laboratory, [spec], size * PEOPLE).values()
     return tuple(spread(_from_others(elites.weights[:, at], elites.final)) for at in range(elites.weights.shape[1]))
 
@@ -124,6 +141,8 @@ def _noise(results: Results, spec: RunSpec) -> Noise:
     elites = results.elites(spec)
     final, before = elites.final, elites.weights[:, :-1]
     mine = final.reshape(-1, PEOPLE, final.shape[-1])  # search i is for person i % 50
+    searches = np.arange(len(final))
+    emotions = searches // PEOPLE * len(EMOTIONS) + searches % PEOPLE % len(EMOTIONS)  # one result a person in each
     rows, columns = np.triu_indices(len(mine), 1)
     return Noise(
         results.last(spec),
@@ -131,6 +150,9 @@ def _noise(results: Results, spec: RunSpec) -> Noise:
         spread(_from_others(final, final)),
         tuple(spread(one) for one in cosine_distance(before, final[:, None]).T),
         float(elites.right.mean()),
+        dispersion(final, searches % PEOPLE),
+        dispersion(final, emotions),
+        kept(final, results.target(spec)),
     )
 
 

@@ -9,7 +9,7 @@ from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from multiprocessing import get_context
 from threading import current_thread, main_thread
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from threadpoolctl import threadpool_limits
 
@@ -17,14 +17,24 @@ from emogen_core.errors import WorkerError
 from emogen_core.simulation.runs import chunks, joined
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+    from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 
     from emogen_core.simulation.evaluation.laboratory import Laboratory
     from emogen_core.simulation.evaluation.specs import RunSpec
     from emogen_core.simulation.runs import Elites
 
-    Made = Generator[tuple["Task", Elites], None, None]
     Progress = Callable[[int, int], None]
+
+T = TypeVar("T")
+T_co = TypeVar("T_co", covariant=True)
+
+
+class Maker(Protocol[T_co]):
+    """What makes one chunk of a run: a laboratory, or something that looks closer at its searches."""
+
+    def chunk(self, spec: RunSpec, number: int, searches: int, /) -> T_co:
+        """Return what came of a chunk."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -39,13 +49,13 @@ class Task:
 def tasks(specs: Iterable[RunSpec], repetitions: int) -> list[Task]:
     """Return the chunks of runs; equal runs are made once."""
     different = {spec.key: spec for spec in specs}.values()
-    return [Task(spec, number, searches) for spec in different for number, searches in chunks(repetitions)]
+    return [Task(spec, number, searches) for spec in different for number, searches in chunks(repetitions, spec.chunk)]
 
 
 class Engine(Protocol):
     """What makes tasks, here or elsewhere, in any order."""
 
-    def run(self, laboratory: Laboratory, todo: Sequence[Task]) -> Made:
+    def run(self, maker: Maker[T], todo: Sequence[Task]) -> Generator[tuple[Task, T], None, None]:
         """Yield every task with what came of it, as it is done; stop the rest when closed.
 
         Raises:
@@ -57,11 +67,11 @@ class Engine(Protocol):
 class Serial:
     """Makes them here, one after the other."""
 
-    def run(self, laboratory: Laboratory, todo: Sequence[Task]) -> Made:
+    def run(self, maker: Maker[T], todo: Sequence[Task]) -> Generator[tuple[Task, T], None, None]:
         """Yield every task with what came of it."""
         with _one_thread():
             for task in todo:
-                yield task, laboratory.chunk(task.spec, task.number, task.searches)
+                yield task, maker.chunk(task.spec, task.number, task.searches)
 
 
 SERIAL = Serial()
@@ -73,13 +83,13 @@ class Processes:
 
     workers: int
 
-    def run(self, laboratory: Laboratory, todo: Sequence[Task]) -> Made:
+    def run(self, maker: Maker[T], todo: Sequence[Task]) -> Generator[tuple[Task, T], None, None]:
         """Yield every task with what came of it, as it is done; stop the rest when closed.
 
         Raises:
             WorkerError: a process was ended from outside.
         """
-        pool = ProcessPoolExecutor(self.workers, get_context("spawn"), _enter, (laboratory,))
+        pool = ProcessPoolExecutor(self.workers, get_context("spawn"), _enter, (maker,))
         try:
             with _uninterrupted():
                 waiting = {pool.submit(_work, task): task for task in todo}
@@ -118,13 +128,29 @@ def make(
     Raises:
         WorkerError: a process that shares the work is gone.
     """
+    made = parts(laboratory, specs, repetitions, engine, progress)
+    return {key: joined(chunks) for key, chunks in made.items()}
+
+
+def parts(
+    maker: Maker[T],
+    specs: Iterable[RunSpec],
+    repetitions: int,
+    engine: Engine = SERIAL,
+    progress: Progress = lambda _done, _all: None,
+) -> Mapping[str, list[T]]:
+    """Return what came of the chunks of runs, in their order, by the runs' keys; as `make`, for any maker.
+
+    Raises:
+        WorkerError: a process that shares the work is gone.
+    """
     todo = tasks(specs, repetitions)
-    done: dict[str, dict[int, Elites]] = {}
-    with closing(engine.run(laboratory, todo)) as made:
-        for count, (task, elites) in enumerate(made, 1):
-            done.setdefault(task.spec.key, {})[task.number] = elites
+    done: dict[str, dict[int, T]] = {}
+    with closing(engine.run(maker, todo)) as made:
+        for count, (task, part) in enumerate(made, 1):
+            done.setdefault(task.spec.key, {})[task.number] = part
             progress(count, len(todo))
-    return {key: joined([parts[at] for at in sorted(parts)]) for key, parts in done.items()}
+    return {key: [chunks[at] for at in sorted(chunks)] for key, chunks in done.items()}
 
 
 @contextmanager
@@ -153,14 +179,14 @@ def _one_thread() -> threadpool_limits:
     return threadpool_limits(1)
 
 
-_here: list[Laboratory] = []
-"""The laboratory of a process of the pool: handed over once, not with every task."""
+_here: list[Maker[Any]] = []
+"""The maker of a process of the pool: handed over once, not with every task."""
 
 
-def _enter(laboratory: Laboratory) -> None:
+def _enter(maker: Maker[Any]) -> None:
     _one_thread()
-    _here[:] = [laboratory]
+    _here[:] = [maker]
 
 
-def _work(task: Task) -> Elites:
+def _work(task: Task) -> Any:
     return _here[0].chunk(task.spec, task.number, task.searches)

@@ -7,7 +7,7 @@ import pytest
 
 from emogen_core.search.params import search_params
 from emogen_core.similarity.linear import vertex_rms
-from emogen_core.simulation.complexity import NOTABLE, Relative, drawn
+from emogen_core.simulation.complexity import COUNT, NOTABLE, PURPOSES, Relative, drawn, name_of, named
 from tests.rig_factory import small_rig
 
 RIG = small_rig(genes=24)
@@ -47,3 +47,12 @@ def test_relative_distances_are_1_for_the_neutral_face_and_free_of_units() -> No
     np.testing.assert_allclose(near, far, rtol=1e-6)
     assert near[0] == pytest.approx(1)
     assert Relative(vertex_rms(RIG.offsets))(target, target)[0] == 0
+
+
+def test_named_targets_are_those_of_their_purpose() -> None:
+    found = {name: named(RIG, ACTIVE, name) for name in (name_of(3, "tuning"), name_of(3, "held-out"))}
+    for purpose, seed in PURPOSES.items():
+        assert np.array_equal(found[name_of(3, purpose)], drawn(RIG, ACTIVE, 3, COUNT, seed))
+    assert len(set(PURPOSES.values())) == 2
+    with pytest.raises(KeyError):
+        named(RIG, ACTIVE, "reported, 3 genes")

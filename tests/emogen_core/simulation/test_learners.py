@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 
 from emogen_core.correctives.pipeline import shape_weights
-from emogen_core.search import Choice, preference
+from emogen_core.search import Choice, State, preference
 from emogen_core.search.params import search_params
 from emogen_core.similarity.cosine import cosine_distance
 from emogen_core.simulation.learners import learned, trial_seed
@@ -25,6 +25,13 @@ def experiment(observer: Observer) -> Experiment:
     return Experiment(PARAMS, FACES, cosine_distance, TARGETS, observer)
 
 
+def doubt(mean: np.ndarray, state: State) -> float:
+    """Return the mean cosine distance of a face to the draws that a state keeps, by hand."""
+    draws = np.zeros((len(state.sample), PARAMS.gene_count))
+    draws[:, list(PARAMS.active)] = np.array(state.sample)[:, 2:]
+    return float(cosine_distance(draws @ RIG.gene_to_core, mean @ RIG.gene_to_core).mean())
+
+
 def test_every_search_shows_what_the_strategy_shows_for_the_same_choices() -> None:
     found = learned(experiment(Observer()), 5, range(2))
     for i in range(2):
@@ -36,6 +43,7 @@ def test_every_search_shows_what_the_strategy_shows_for_the_same_choices() -> No
             state = preference.tell(PARAMS, state, Choice(tuple(ranks.tolist()), int(ranks[0])))
             mean = preference.mean_face(PARAMS, state)
             assert np.array_equal(FACES(mean[None])[0], found.means[i, generation])
+            assert np.isclose(doubt(mean, state), found.doubt[i, generation], rtol=1e-5)
             assert np.array_equal(FACES(genes)[ranks[0] - 1], found.elites.weights[i, generation])
         assert np.array_equal(genes[ranks[0] - 1], found.elites.genes[i])
 

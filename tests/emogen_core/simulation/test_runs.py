@@ -147,3 +147,12 @@ def test_pressure_changes_who_breeds_and_nothing_else():
     unbred = [0, *range(6, POPULATION)]
     np.testing.assert_array_equal(populations[1][:, unbred], others[1][:, unbred])
     assert (populations[1][:, 3:6] != others[1][:, 3:6]).any((1, 2)).mean() > 0.5
+
+
+def test_who_watches_sees_the_faces_of_every_generation_and_changes_nothing():
+    seen = []
+    plain, watching = chunk(PLAIN, 1, 0, 20), chunk(PLAIN, 1, 0, 20, seen.append)
+    equal(plain, watching)
+    assert len(seen) == PLAIN.params.generations + 1
+    _, _, _, populations = watched(PLAIN)
+    np.testing.assert_array_equal(np.stack(seen), populations)

@@ -5,6 +5,7 @@ import numpy as np
 from emogen_core.analysis.matching import Judgements
 from emogen_core.analysis.recorded import Faces, joined
 from emogen_core.correctives.pipeline import shape_weights
+from emogen_core.simulation.evaluation.dispersion import Dispersion
 from emogen_core.simulation.evaluation.results import Spread
 from emogen_core.simulation.evaluation.threshold import Noise, Threshold
 from server.analysis.context import Context
@@ -56,7 +57,8 @@ def spread(mean):
 
 
 def noise(level):
-    return Noise(spread(level), spread(level + 0.1), spread(level + 0.05), (), 1.0)
+    vary = Dispersion(level, 10.0)
+    return Noise(spread(level), spread(level + 0.1), spread(level + 0.05), (), 1.0, vary, vary, 0.5)
 
 
 def threshold(level=0.05):

@@ -18,6 +18,7 @@ def test_targets_do_not_depend_on_the_search_nor_on_the_seed():
         np.testing.assert_array_equal(one.target(name), other.target(name))
     with pytest.raises(KeyError):
         one.target("target 9")
+    np.testing.assert_array_equal(one.target("held-out, 3 genes"), other.target("held-out, 3 genes"))
 
 
 def test_a_search_over_fewer_genes_moves_no_others_and_looks_for_no_others():
@@ -53,15 +54,24 @@ def test_another_process_gets_the_same_laboratory_without_its_offsets():
     np.testing.assert_array_equal(one.genes, same.genes)
 
 
-def test_every_search_of_a_study_with_several_starts_draws_one():
-    params = small_laboratory().params
+@pytest.mark.parametrize(("algorithm", "searches"), [("emogen", 100), ("preference", 40)])
+def test_every_search_of_a_study_with_several_starts_draws_one(algorithm, searches):
+    params = small_laboratory(generations=1).params
     drawn = np.zeros((3, 10, params.gene_count))
     drawn[np.arange(3), :, np.arange(3)] = 0.9
     laboratory = Laboratory(small_laboratory().rig, "female", 1, params, drawn=drawn)
-    firsts = laboratory.chunk(RunSpec("target 1"), 0, 100).weights[:, 0]
+    firsts = laboratory.chunk(RunSpec("target 1", algorithm=algorithm), 0, searches).weights[:, 0]
     alike = np.unique(firsts, axis=0, return_counts=True)[1]
     assert len(alike) == 3
-    assert alike.min() > 15
+    assert alike.min() > 0.15 * searches
+
+
+def test_searches_that_learn_go_on_where_the_chunk_before_ended():
+    laboratory = small_laboratory(generations=1)
+    spec = RunSpec("people", algorithm="preference")
+    whole, parts = laboratory.learned(spec, 0, 42), [laboratory.learned(spec, number, 2) for number in (0, 1)]
+    np.testing.assert_array_equal(whole.shown[:2], parts[0].shown)
+    np.testing.assert_array_equal(whole.shown[spec.chunk :], parts[1].shown)
 
 
 def test_an_unknown_metric_is_refused():

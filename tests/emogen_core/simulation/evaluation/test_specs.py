@@ -19,6 +19,7 @@ def test_what_is_different_has_another_key():
         replace(PLAIN, selections="three"),
         replace(PLAIN, observer=Observer(noise=0.1)),
         replace(PLAIN, algorithm="pressure"),
+        replace(PLAIN, algorithm="preference"),
         replace(PLAIN, start="fixed 1"),
         replace(PLAIN, genes=16),
     ]
@@ -33,3 +34,8 @@ def test_settings_are_compared_by_the_same_first_faces_and_others_are_not():
     laboratory = small_laboratory()
     default = replace(PLAIN, search={"activation": laboratory.params.activation})
     np.testing.assert_array_equal(laboratory.chunk(PLAIN, 0, 9).genes, laboratory.chunk(default, 0, 9).genes)
+
+
+def test_searches_that_learn_are_made_fewer_at_a_time():
+    assert (PLAIN.chunk, replace(PLAIN, algorithm="pressure").chunk) == (100, 100)
+    assert replace(PLAIN, algorithm="preference").chunk < 100

@@ -4,10 +4,20 @@ import numpy as np
 import pytest
 
 from emogen_core.errors import InvalidInputError
+from emogen_core.search.preference import learning
 from emogen_core.similarity.cosine import cosine_distance
+from emogen_core.simulation import learners
 from emogen_core.simulation.evaluation.specs import RunSpec
 from emogen_core.simulation.evaluation.targets import PEOPLE
-from emogen_core.simulation.evaluation.threshold import FAITHFUL, NOISY, convergence, threshold
+from emogen_core.simulation.evaluation.threshold import (
+    FAITHFUL,
+    LEARNING_SEARCHES,
+    NOISY,
+    SEARCHES,
+    convergence,
+    threshold,
+    usual_searches,
+)
 from emogen_core.simulation.evaluation.work import make
 from tests.emogen_core.simulation.evaluation.laboratories import real_laboratory, small_laboratory
 
@@ -35,6 +45,10 @@ def test_its_numbers_are_those_of_the_runs_told_by_person():
     settling = [cosine_distance(elites.weights[:, at], elites.final).mean() for at in range(3)]
     assert [one.mean for one in found.noisy.settling] == pytest.approx(settling, rel=1e-5)
     assert found.noisy.right == pytest.approx(elites.right.mean())
+    units = [one / np.linalg.norm(one, axis=1, keepdims=True) for one in final]
+    assert found.noisy.within.scatter == pytest.approx(np.mean([one.var(0, ddof=1).sum() for one in units]), rel=1e-4)
+    assert found.noisy.within.scatter < found.noisy.among.scatter < 1
+    assert found.random.kept < 0.1 < found.noisy.kept < found.faithful.kept <= 1
 
 
 def test_the_bundled_rig_has_the_noise_that_the_docs_tell():
@@ -79,3 +93,18 @@ def test_a_group_is_held_against_one_of_its_size():
     assert sizes == sorted(sizes, reverse=True)
     with pytest.raises(InvalidInputError, match="size: expected at least 2"):
         convergence(laboratory, 1)
+
+
+def test_a_study_whose_strategy_learns_is_told_the_noise_of_that(monkeypatch):
+    monkeypatch.setattr(learning, "CHAINS", 4)  # fewer draws only make it quicker
+    monkeypatch.setattr(learning, "FIRST", 50)
+    monkeypatch.setattr(learners, "IN_STEP", 40)
+    laboratory = small_laboratory(generations=1)
+    laboratory.algorithm = "preference"
+    found = threshold(laboratory, 100)
+    spec = RunSpec("people", algorithm="preference")
+    elites = make(laboratory, [spec], 100)[spec.key]
+    minds = laboratory.faces(laboratory.target("people"))
+    assert found.faithful.error.mean == pytest.approx(cosine_distance(elites.final, np.tile(minds, (2, 1))).mean())
+    assert found.faithful != threshold(small_laboratory(generations=1), 100).faithful
+    assert (usual_searches("preference"), usual_searches("emogen")) == (LEARNING_SEARCHES, SEARCHES)

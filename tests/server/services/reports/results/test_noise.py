@@ -1,10 +1,24 @@
 """The noise of a study's own search: simulated once, behind the page, and then remembered."""
 
+import hashlib
+import json
 import logging
+import threading
+from dataclasses import asdict, replace
 
+import numpy as np
 import pytest
 
+from emogen_core.search import preference
+from emogen_core.search.strategies import STRATEGIES
+from emogen_core.simulation.evaluation.laboratory import Laboratory
+from emogen_core.simulation.evaluation.specs import RunSpec
+from emogen_core.simulation.evaluation.threshold import threshold
+from server.reporting.noise import laboratory
+from server.services.own_call import made_aside
+from server.services.reports.results import noise as module
 from server.services.reports.results.noise import NoiseOfSearch, settling_of
+from server.services.trials.evolution import simulated
 from tests.conftest import small_study
 
 
@@ -85,3 +99,43 @@ def test_selections_and_several_first_populations_count(noise, rig):
     drawn, second = small_study(search=fixed), small_study(search={**fixed, "fixed_option": 2})
     errors = [known(noise, one).faithful.error for one in (plain, other, drawn, second)]
     assert len(set(errors)) == 4
+
+
+def learning(**changes):
+    plain = small_study(**changes)
+    return plain.model_copy(update={"search": plain.search.model_copy(update={"strategy": "preference"})})
+
+
+def test_a_strategy_that_learns_is_simulated_aside_and_known_by_its_own_name(noise, monkeypatch):
+    monkeypatch.setitem(STRATEGIES, "preference", preference)
+    published, asked = known(noise, small_study()), []
+
+    def aside(stopped, make, laboratory, searches):
+        asked.append((make, laboratory.algorithm, laboratory.pause, searches))
+        return replace(published, searches=7)
+
+    monkeypatch.setattr(module, "made_aside", aside)
+    assert known(noise, learning()).searches == 7
+    assert asked == [(threshold, "preference", None, 100)]
+    assert noise.of(small_study()) == published
+
+
+def test_files_of_the_published_search_are_named_as_before_rigs_told_their_geometry(noise, rig):
+    """Another name would have every study simulated anew."""
+    config = small_study()
+    params, _ = simulated(rig, config)
+    told = asdict(replace(params, geometry=None)) | {"drawn": None, "rig": rig.hash, "searches": 100, "version": 4}
+    del told["geometry"]
+    told["algorithm"] = f"emogen/{STRATEGIES['emogen'].VERSION}"
+    known(noise, config)
+    name = hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()
+    assert [file.name for file in noise.folder.iterdir()] == [f"{name}.json"]
+
+
+def test_a_laboratory_goes_to_a_process_and_gives_the_same_there(rig):
+    config = learning(generations=1)
+    there = laboratory(rig, config, 1)
+    spec = RunSpec("people", algorithm=there.algorithm)
+    assert spec.learns
+    made = made_aside(threading.Event(), Laboratory.chunk, there, spec, 0, 2)
+    np.testing.assert_array_equal(made.weights, there.chunk(spec, 0, 2).weights)
