@@ -12,6 +12,7 @@ import typer
 
 from emogen_core.errors import InvalidInputError, expected
 from emogen_core.face.bundled import load_bundled_rig
+from emogen_core.face.model_identity import known_as
 from emogen_core.rendering.pool import RenderPool
 
 from ..services.faces.drawing import NoDrawer, PoolDrawer
@@ -83,7 +84,7 @@ def worn(export: Export, file: Path | None) -> Iterator[Wearing]:
         model = file_model(_name(export), file)
         rig, models = model.rig, FileModels({model.name: model})
     bundled = load_bundled_rig()
-    kept = FileHeads(bundled, partial(_file, export))
+    kept = FileHeads(partial(_file, export))
     wardrobe = Wardrobe(HouseTailor(bundled), models=models, kept=kept)
     try:
         yield Wearing(rig, wardrobe, models)
@@ -93,7 +94,7 @@ def worn(export: Export, file: Path | None) -> Iterator[Wearing]:
 
 def _name(export: Export) -> str:
     versions = [one["config"].get("identities", ()) for one in export.configurations()]
-    heads = [head for heads in versions for head in heads if isinstance(head, str)]
+    heads = [head if isinstance(head, str) else known_as(head) for heads in versions for head in heads]
     name = name_of(heads)
     if not name:
         raise InvalidInputError(f"--rig: {expected('an export with heads called MODEL:HEAD', heads)}; leave it out")

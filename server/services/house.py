@@ -148,7 +148,7 @@ def build_house(
     """
     database = open_database(settings)
     models = FaceModels(database, settings.data_dir / "face-models")
-    kept = StoredHeads(database, rig)
+    kept = StoredHeads(database)
     wardrobe = Wardrobe(tailor or HouseTailor(rig), settings.portrait_wait_seconds, models=models, kept=kept)
     drawers = ModelDrawers(drawer, models, settings.renderer, drawer_of)
     portraits = _portraits(settings, drawers, database, wardrobe)

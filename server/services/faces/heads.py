@@ -24,8 +24,8 @@ from emogen_core.rigs.identities import IDENTITIES, preset
 
 from ..errors import ConflictError, InvalidError, NotFoundError
 from .face_model import MARK
+from .refusal import refusal
 from .sketch import Sketch
-from .wardrobe import refusal
 
 if TYPE_CHECKING:
     from concurrent.futures import Future

@@ -11,6 +11,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Protocol
 
 from emogen_core.errors import EmogenError
+from emogen_core.face.modes import ENDING
 
 from ..background import watched
 from ..clock import now
@@ -135,5 +136,6 @@ class Imports:
             self.make(self.unpack(file, folder), out, wears)
             findings = json.loads((out.parent / REPORT).read_text(encoding="utf-8"))
             told = {key: findings[key] for key in ("found", "guessed", "missing")}
-            look = out.with_suffix(".look").read_bytes()
-            self.models.add(name, out.read_bytes(), look, user, told)
+            look, modes = out.with_suffix(".look").read_bytes(), out.with_suffix(ENDING)
+            known = modes.read_bytes() if modes.is_file() else None
+            self.models.add(name, out.read_bytes(), look, user, told, modes=known)
