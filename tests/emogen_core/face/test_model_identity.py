@@ -67,7 +67,8 @@ def test_a_study_knows_either_kind_by_its_hash():
         ({"version": True}, "version: expected 1"), ({"format": "emogen-identity"}, "format: expected"),
         ({"model": "Lab"}, "model: expected"), ({"model": 3}, "model: expected"), ({"name": ""}, "name: expected"),
         ({"name": "a\nb"}, "name: expected"), ({"hash": "0" * 64}, "hash: expected"),
-        ({"space": "0" * 64}, "space: expected"), ({"modes": {"m0": 1}}, "hash: expected"), ({"more": 1}, "fields among"),
+        ({"space": "0" * 64}, "space: expected"), ({"modes": {"m0": 1}}, "hash: expected"),
+        ({"more": 1}, "fields among"),
     ],
 )  # fmt: skip
 def test_what_is_none_is_named(change, why):
