@@ -109,7 +109,9 @@ def _packed(offsets: NDArray[np.float32]) -> NDArray[np.int16]:
     """Return (3, N) changes from vertex to vertex, for neighbours move alike."""
     moves = steps(offsets, STEPS_PER_MILLIMETRE)
     _need(bool((np.abs(moves) < 2**15).all()), "modes below 256 mm", float(np.abs(offsets).max(initial=0)))
-    return np.diff(moves.astype(np.int16), axis=0, prepend=np.int16(0)).T.copy()
+    first, changes = moves[:1], moves[1:] - moves[:-1]
+    # A change may leave 16 bits; adding it up in 16 bits comes back to the same place.
+    return np.concatenate([first, changes]).astype(np.int16).T.copy()
 
 
 def _unpacked(packed: NDArray[np.int16]) -> NDArray[np.float32]:

@@ -89,7 +89,7 @@ def _stored(made: Imported, out: Path, look: Path, modes: Path) -> tuple[Rig, di
         save_look(here[1], made.look)
         rig, dressed = load_rig(here[0]), load_look(here[1])
         dressed.check(rig)
-        told = {"look": str(look), "look_hash": dressed.hash}
+        told: dict[str, Any] = {"look": str(look), "look_hash": dressed.hash}
         if made.modes:
             space = save_modes(ModeSpace(rig.hash, made.modes), here[2])
             told |= {"modes": str(modes), "modes_hash": space.hash, "sliders": len(space.modes)}

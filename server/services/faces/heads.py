@@ -17,13 +17,13 @@ import numpy as np
 from emogen_core.correctives.pipeline import face_weights
 from emogen_core.errors import IdentityError
 from emogen_core.face.identity import parsed_document, signed_document, worn_as
+from emogen_core.face.model_identity import MARK
 from emogen_core.rendering.protocol import RenderSettings
 from emogen_core.rendering.worn import WornHead, worn_rig
 from emogen_core.rigs.default_look import appearance_of
 from emogen_core.rigs.identities import IDENTITIES, preset
 
 from ..errors import ConflictError, InvalidError, NotFoundError
-from .face_model import MARK
 from .refusal import refusal
 from .sketch import Sketch
 

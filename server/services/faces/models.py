@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from emogen_core.errors import EmogenError
-from emogen_core.face.model_identity import LONGEST_MODEL, is_model_name
+from emogen_core.face.model_identity import LONGEST_MODEL, MARK, is_model_name
 from emogen_core.face.modes import load_modes
 from emogen_core.face.rig_file import load_rig
 from emogen_core.rendering.look import load_look
@@ -23,7 +23,7 @@ from ...store.models_tables import FaceModelRecord
 from ..clock import now
 from ..errors import ConflictError, InvalidError, NotFoundError
 from ..people.accounts import audit
-from .face_model import MARK, FaceModel, called, unknown_model
+from .face_model import FaceModel, called, unknown_model
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

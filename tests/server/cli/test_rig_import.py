@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 
+from emogen_core.face.modes import load_modes
 from emogen_core.face.rig_file import load_rig
 from emogen_core.rendering.look import load_look
 from tests.emogen_core.rigs.foreign.heads import gltf_of, made_head, write_folder
@@ -78,6 +79,20 @@ def test_heads_of_identity_modes(tmp_path):
     assert rig.identities == ("neutral", "anna", "random-1")
     height = {name: np.ptp(rig.neutral(name)[:, 1]) for name in rig.identities}
     assert height["anna"] == pytest.approx(1.06 * height["neutral"], rel=1e-3)
+    assert sorted(path.name for path in tmp_path.glob("head.*")) == ["head.look", "head.modes", "head.rig"]
+    space = load_modes(tmp_path / "head.modes")
+    space.check_rig(rig)
+    assert f"modes_hash: {space.hash}" in done.stdout.splitlines()
+    assert np.abs(space.modes["identity000"] - tall).max() < 0.01
+
+
+def test_modes_of_another_import_do_not_stay_beside_the_rig(tmp_path, source):
+    (tmp_path / "head.modes").write_text("theirs")
+    refused = import_(tmp_path, source, "--no-combinations")
+    assert refused.returncode == 1 and "head.modes: expected a new file" in refused.stderr
+    assert (tmp_path / "head.modes").read_text() == "theirs"
+    assert import_(tmp_path, source, "--no-combinations", "--force").returncode == 0
+    assert left(tmp_path) == ["head.look", "head.rig"]
 
 
 @pytest.mark.parametrize(
