@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from emogen_core.face.model_identity import MARK
 from emogen_core.face.modes import ENDING, load_modes
@@ -19,7 +19,7 @@ from emogen_core.rendering.look import load_look
 from ..errors import NotFoundError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Sequence
     from pathlib import Path
 
     from emogen_core.face.modes import ModeSpace
@@ -112,6 +112,13 @@ def file_model(name: str, rig: Path) -> FaceModel:
 def name_of(heads: Iterable[str]) -> str:
     """Return the name of the face model of some heads; empty for the bundled one."""
     return next((head.partition(MARK)[0] for head in heads if MARK in head), "")
+
+
+def model_named(heads: Sequence[str | Mapping[str, Any]]) -> str:
+    """Return the face model that names or documents of heads are of; empty for the bundled one."""
+    named = (head.partition(MARK)[0] if MARK in head else "" for head in heads if isinstance(head, str))
+    written = (str(head.get("model", "")) for head in heads if not isinstance(head, str))
+    return next(filter(None, (*named, *written)), "")
 
 
 def own_name(identity: str) -> str:
