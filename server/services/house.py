@@ -12,7 +12,8 @@ from ..store.engine import Database
 from ..store.opening import open_database
 from .config.way_back import host_list
 from .faces.heads import Heads
-from .faces.imports import HeadImporter, Imports
+from .faces.import_note import ImportNote
+from .faces.imports import MOST_SECONDS, HeadImporter, Imports
 from .faces.kept_heads import StoredHeads
 from .faces.model_drawers import ModelDrawers
 from .faces.models import FaceModels
@@ -153,7 +154,8 @@ def build_house(
     drawers = ModelDrawers(drawer, models, settings.renderer, drawer_of)
     portraits = _portraits(settings, drawers, database, wardrobe)
     journal = Journal(database, rig, portraits, wardrobe, host_list(settings.redirect_hosts))
-    imports = Imports(models, HeadImporter(), unpacked)
+    note = ImportNote(settings.data_dir / "face-models" / "import.json", MOST_SECONDS)
+    imports = Imports(models, HeadImporter(), unpacked, note)
     previews = Previews(journal)
     noise = NoiseOfSearch(wardrobe.rig_of, settings.data_dir / "noise")
     making, tokens, joining = Studies(journal), Tokens(database), Joining(journal, settings.joins_per_minute)

@@ -4,6 +4,8 @@ import re
 
 import pytest
 
+from server.services.clock import now
+from server.services.faces.import_note import INTERRUPTED, ImportRun
 from server.services.faces.models import MOST_BYTES
 from tests.conftest import PIXEL, small_study
 from tests.server.admin.test_account import csrf, owner, visitor  # noqa: F401
@@ -70,6 +72,14 @@ def test_a_head_is_imported_behind_the_scenes(owner, house, tmp_path):  # noqa: 
     for one in (one for kind in FINDINGS.values() for one in kind):
         assert f"<li>{one}</li>" in page
     assert make.given == [("lab.glb", b"glTF", "male")]
+
+
+def test_an_import_that_a_restart_interrupted_is_told(owner, house):  # noqa: F811
+    house.imports.note.write(ImportRun("lab", now()))
+    house.imports.last = house.imports.note.read()
+    page = owner.get(PAGE).text
+    assert f"<b>lab</b> was not imported. {INTERRUPTED}" in page
+    assert "data-running" not in page
 
 
 def test_a_head_that_is_none_is_told(owner, house, tmp_path):  # noqa: F811

@@ -47,6 +47,21 @@ def test_a_rig_and_its_look_with_a_report(tmp_path, source):
         assert [line for line in lines if line.startswith(f"{kind}: ")] == [f"{kind}: {s}" for s in report[kind]]
 
 
+def test_a_plain_folder_of_objs_is_the_same_head(tmp_path, source):
+    write_folder(tmp_path / "var" / "plain", MODEL, neutral="head_rest")
+    rigs = []
+    for one in (source, tmp_path / "var" / "plain"):
+        done = import_(tmp_path, one, "--no-combinations", "--name", "mine", "--force")
+        assert done.returncode == 0, done.stderr
+        rigs.append(load_rig(tmp_path / "head.rig"))
+        load_look(tmp_path / "head.look").check(rigs[-1])
+    gltf, plain = rigs
+    assert "guessed: The neutral is head_rest.obj, by its name." in done.stdout.splitlines()
+    assert (plain.genes, plain.core_shapes, dict(plain.parts)) == (gltf.genes, gltf.core_shapes, dict(gltf.parts))
+    assert np.abs(plain.offsets - gltf.offsets).max() < 0.01
+    assert np.abs(plain.neutral("neutral") - gltf.neutral("neutral")).max() < 0.01
+
+
 def test_checks_take_the_file(tmp_path, source):
     assert import_(tmp_path, source, "--no-combinations").returncode == 0
     done = emogen(tmp_path / "var", "rig", "check", str(tmp_path / "head.rig"), "--faces", "2", "--json")
