@@ -15,6 +15,7 @@ from .faces.heads import Heads
 from .faces.import_note import ImportNote
 from .faces.imports import MOST_SECONDS, HeadImporter, Imports
 from .faces.kept_heads import StoredHeads
+from .faces.model_desk import ModelDesk
 from .faces.model_drawers import ModelDrawers
 from .faces.models import FaceModels
 from .faces.portrait_files import PortraitFiles
@@ -78,6 +79,7 @@ class House:
     recruiting: Recruiting
     heads: Heads
     models: FaceModels
+    model_desk: ModelDesk
     imports: Imports
     editor: Editor
     making: Making
@@ -175,6 +177,7 @@ def build_house(
         recruiting=Recruiting(database, settings.address),
         heads=heads,
         models=models,
+        model_desk=ModelDesk(wardrobe, portraits, models),
         imports=imports,
         editor=Editor(life, heads),
         making=Making(making, life),

@@ -244,18 +244,24 @@ class Wardrobe:
             except EmogenError as error:
                 raise refusal("identity", error) from error
 
-    def anew(self, document: Mapping[str, Any]) -> WornHead:
-        """Return the head of a signed document as this process makes it now, kept or not.
+    def anew(self, document: Mapping[str, Any], wanted: Callable[[], None] = lambda: None) -> tuple[WornHead, Rig]:
+        """Return the head of a signed document as this process makes it now, kept or not, and a rig that wears it.
+
+        Args:
+            document: of either kind.
+            wanted: as `try_on`.
 
         Raises:
             InvalidError: it cannot be made.
             UnavailableError: others are being fitted for longer than anybody should wait.
         """
         with _turn(self._needle, self._patience):
+            wanted()
             try:
-                return self._made(document)
+                head = self._made(document)
             except EmogenError as error:
                 raise refusal("identity", error) from error
+        return head, worn_rig(self._base(head.name), head)
 
     def close(self) -> None:
         """Stop fitting."""

@@ -59,9 +59,10 @@ def test_a_study_has_the_documents_runs_and_replays(house, study, model):
 
 def test_the_head_is_the_first_one_plus_its_modes(house, files, model, tmp_path):
     signed = house.journal.wardrobe.signed(ANNA)
-    head, known = house.journal.wardrobe.anew(signed), house.models.of("lab:female")
+    (head, rig), known = house.journal.wardrobe.anew(signed), house.models.of("lab:female")
     added = head.neutral - known.rig.neutral("lab:female")
     assert added == pytest.approx(1.5 * known.modes.modes["identity000"], abs=1e-5)
+    assert np.array_equal(rig.neutral(head.name), head.neutral)
     assert model.sliders == ["identity000", "identity001"]
 
 
