@@ -19,6 +19,7 @@ from .routes.admin import (
     find,
     heads,
     making,
+    model_heads,
     models,
     monitor,
     participants,
@@ -42,7 +43,7 @@ if TYPE_CHECKING:
 
 PARTICIPANT = (arrival, participant, plain_forms, pages, portraits)
 STUDY = (design, planning, monitor, recruit, participants, results, analysis, thumbnails, data, preview)
-ADMIN = (account, making, studies, *STUDY, heads, models, find, tokens, team, server)
+ADMIN = (account, making, studies, *STUDY, heads, models, model_heads, find, tokens, team, server)
 INSIDE = "http://emogen.local"
 """Where simulated participants of this process find its own interface."""
 ROUTERS = tuple(room.router for room in (*PARTICIPANT, *ADMIN, api, health))

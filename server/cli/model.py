@@ -8,12 +8,14 @@ from typing import Annotated
 
 import typer
 
+from emogen_core.face.modes import ENDING
+
 from .common import Json, load_settings, plainly, stop
 from .housed import opened
 
 app = typer.Typer(help="Face models beside the bundled one: add, list, remove.", no_args_is_help=True)
 
-Rig = Annotated[Path, typer.Argument(help="A rig file, as emogen rig import writes it; its look lies beside it.")]
+Rig = Annotated[Path, typer.Argument(help="A rig file, as emogen rig import writes it; look and modes lie beside it.")]
 Name = Annotated[str, typer.Option(help="What its heads are called by, NAME:HEAD; the name of the file if left out.")]
 Named = Annotated[str, typer.Argument(metavar="NAME", help="The face model.")]
 
@@ -21,9 +23,9 @@ Named = Annotated[str, typer.Argument(metavar="NAME", help="The face model.")]
 @app.command("add")
 def add(rig: Rig, name: Name = "") -> None:
     """Keep a face model; then studies can have its heads."""
-    content, look = _read(rig), _read(rig.with_suffix(".look"))
+    content, look, modes = _read(rig), _read(rig.with_suffix(".look")), rig.with_suffix(ENDING)
     with plainly(), opened(load_settings(), drawing=False) as house:
-        row = house.models.add(name or rig.stem, content, look)
+        row = house.models.add(name or rig.stem, content, look, modes=_read(modes) if modes.is_file() else None)
         typer.echo("\n".join(f"{row.name}:{head}" for head in row.heads))
 
 
@@ -34,7 +36,8 @@ def list_(json_: Json = False) -> None:
         rows = house.models.all()
     told = [
         {
-            "name": row.name, "rig_hash": row.rig_hash, "heads": row.heads, "emotions": row.emotions, **row.counts,
+            "name": row.name, "rig_hash": row.rig_hash, "heads": row.heads, "emotions": row.emotions,
+            "sliders": row.sliders, **row.counts,
         }
         for row in rows
     ]  # fmt: skip

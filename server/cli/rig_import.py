@@ -14,6 +14,7 @@ from threadpoolctl import threadpool_limits
 
 from emogen_core.errors import InvalidInputError, expected
 from emogen_core.face.container import check_writable
+from emogen_core.face.modes import ENDING, ModeSpace, save_modes
 from emogen_core.face.rig_file import load_rig, save_rig
 from emogen_core.rendering.look import load_look, save_look
 
@@ -26,7 +27,9 @@ if TYPE_CHECKING:
     from emogen_core.rigs.imported.assemble import Imported
 
 Source = Annotated[Path, typer.Argument(help="An ICT-FaceKit folder, a folder of OBJ files, or a .glb or .gltf file.")]
-Out = Annotated[Path, typer.Option("--out", help="Rig file to write; its look goes beside it, as FILE.look.")]
+Out = Annotated[
+    Path, typer.Option("--out", help="Rig file to write; beside it go its look, FILE.look, and its modes, FILE.modes.")
+]
 Unit = Annotated[str, typer.Option(help="Of its lengths: mm, cm, m or in; by its height if left out.")]
 Neutral = Annotated[str, typer.Option(help="The neutral's file in a folder of OBJs, if its name does not say so.")]
 Name = Annotated[str, typer.Option(help="Of the rig; that of the file or folder if left out.")]
@@ -48,14 +51,14 @@ def import_(  # noqa: PLR0913, PLR0917 - typer reads the options from the signat
     force: Force = False, json_: Json = False,
 ) -> None:  # fmt: skip
     """Make a rig of somebody else's head, with a look, and say what was found, guessed and missing."""
-    look = out.with_suffix(".look")
+    look, modes = out.with_suffix(".look"), out.with_suffix(ENDING)
     with plainly(), threadpool_limits(1):
-        _check_free((out, look), force)
+        _check_free((out, look, modes), force)
         making = import_module("emogen_core.rigs.imported.assemble")
         wishes = making.Wishes(name, unit, neutral, wears, _heads(head or ()), random, seed, combinations)
         made: Imported = making.import_head(source, wishes, partial(typer.echo, err=True))
-        rig, dressed = _stored(made, out, look)
-    report = {**_facts(rig, out), "look": str(look), "look_hash": dressed, **made.findings.to_document()}
+        rig, files = _stored(made, out, look, modes)
+    report = {**_facts(rig, out), **files, **made.findings.to_document()}
     typer.echo(json.dumps(report, indent=2) if json_ else _told(report))
 
 
@@ -69,25 +72,33 @@ def _heads(words: Sequence[str]) -> dict[str, dict[str, float]]:
 
 
 def _check_free(paths: Sequence[Path], force: bool) -> None:
-    if paths[0] == paths[1]:
-        raise InvalidInputError(f"out: {expected('a name that does not end in .look', str(paths[0]))}")
+    for path in paths[1:]:
+        if paths[0] == path:
+            raise InvalidInputError(f"out: {expected(f'a name that does not end in {path.suffix}', str(path))}")
     for path in paths:
         check_writable(path)
         if path.exists() and not force:
             raise InvalidInputError(f"{path}: {expected('a new file', 'one that is there')}; --force writes over it")
 
 
-def _stored(made: Imported, out: Path, look: Path) -> tuple[Rig, str]:
-    """Write both files beside their places, read them back, and put them there only when both are whole."""
+def _stored(made: Imported, out: Path, look: Path, modes: Path) -> tuple[Rig, dict[str, Any]]:
+    """Write all files beside their places, read them back, and put them there only when all are whole."""
     with TemporaryDirectory(prefix=".import-", dir=out.parent) as folder:
-        here = Path(folder) / "head.rig", Path(folder) / "head.look"
+        here = Path(folder) / "head.rig", Path(folder) / "head.look", Path(folder) / "head.modes"
         save_rig(made.rig, here[0])
         save_look(here[1], made.look)
         rig, dressed = load_rig(here[0]), load_look(here[1])
         dressed.check(rig)
-        here[1].replace(look)
-        here[0].replace(out)
-    return rig, dressed.hash
+        told: dict[str, Any] = {"look": str(look), "look_hash": dressed.hash}
+        if made.modes:
+            space = save_modes(ModeSpace(rig.hash, made.modes), here[2])
+            told |= {"modes": str(modes), "modes_hash": space.hash, "sliders": len(space.modes)}
+        # Modes of an earlier import belong to the rig that is written over.
+        modes.unlink(missing_ok=True)
+        for made_file, place in zip(here, (out, look, modes), strict=True):
+            if made_file.is_file():
+                made_file.replace(place)
+    return rig, told
 
 
 def _facts(rig: Rig, out: Path) -> dict[str, Any]:

@@ -4,20 +4,23 @@ from __future__ import annotations
 
 import asyncio
 import json
-from typing import Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
 import httpx2
 import typer
 
 from emogen_core.errors import expected
-from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.simulation.observer import Observer
 
 from ..app import create_app
 from ..services.studies.simulation import Report, Simulation
 from ..services.trials.evolution import params_of
-from .common import Json, load_settings, plainly, stop
+from .common import Json, load_settings, plainly, rig_of, stop
 from .housed import opened
+
+if TYPE_CHECKING:
+    from emogen_core.face.rig import Rig
 
 app = typer.Typer()
 
@@ -27,6 +30,7 @@ Link = Annotated[str | None, typer.Option(help="Last part of a participant link;
 Seed = Annotated[int, typer.Option(min=0, help="The same seed gives the same participants and the same faces.")]
 Url = Annotated[str | None, typer.Option(help="A running server; without it the study runs in this process.")]
 Token = Annotated[str | None, typer.Option(envvar="EMOGEN_TOKEN", help="Token for simulations; with --url.")]
+RigFile = Annotated[Path | None, typer.Option("--rig", help="Rig file of the study's heads; with --url.")]
 Noise = Annotated[float, typer.Option(min=0, help="Standard deviation of the error of every judged distance.")]
 Lapse = Annotated[float, typer.Option(min=0, max=1, help="Chance that a choice is made at random.")]
 Drift = Annotated[float, typer.Option(min=0, help="Step that every gene in mind takes after a generation (sd).")]
@@ -36,19 +40,21 @@ Left = Annotated[float, typer.Option(help="How much nearer the first place seems
 @app.command()
 def simulate(  # noqa: PLR0913, PLR0917 - typer reads the options from the signature
     participants: Count = 1, study: Study = "demo", seed: Seed = 0,
-    url: Url = None, link: Link = None, token: Token = None,
+    url: Url = None, link: Link = None, token: Token = None, rig: RigFile = None,
     noise: Noise = 0, lapse: Lapse = 0, drift: Drift = 0, left: Left = 0, json_: Json = False,
 ) -> None:  # fmt: skip
     """Send simulated participants through a study; they are marked as simulated in the data."""
     with plainly():
         observer = Observer(noise, lapse, drift, left)
+    if url is None and rig is not None:
+        raise stop("--rig: expected --url beside it: in this process the server's own face models are used.")
     if url is None:
         report = _here(study, participants, seed, observer)
     elif link is None or token is None:
         raise stop("With --url, give --link and --token as well (the admin pages show both).")
     else:
         with plainly():
-            report = asyncio.run(_there(url, link, token, participants, seed, observer))
+            report = asyncio.run(_there(url, link, token, participants, seed, observer, rig_of(rig)))
     typer.echo(json.dumps(report.plain(), indent=2) if json_ else report.text())
 
 
@@ -66,11 +72,11 @@ def _here(study: str, participants: int, seed: int, observer: Observer) -> Repor
 
 
 async def _there(  # noqa: PLR0913, PLR0917 - where, how many, and how they judge
-    url: str, link: str, token: str, participants: int, seed: int, observer: Observer
+    url: str, link: str, token: str, participants: int, seed: int, observer: Observer, rig: Rig
 ) -> Report:
     try:
         client = _client(url, None)
-        return await _run(client, Simulation(client, link, token, seed, load_bundled_rig(), observer), participants)
+        return await _run(client, Simulation(client, link, token, seed, rig, observer), participants)
     except (httpx2.HTTPError, httpx2.InvalidURL) as error:
         raise stop(
             f"--url: {expected('a running Emogen server', f'{url} ({error or type(error).__name__})')}"

@@ -13,11 +13,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from emogen_core.errors import expected
 from emogen_core.face.bundled import load_bundled_rig
 
 from ..services.config.difference import changes
 from ..services.config.files import Kind
 from ..services.config.options import page
+from ..services.faces.face_model import FileModels, file_model, model_named
 from ..services.faces.tailor import HouseTailor
 from ..services.faces.wardrobe import Wardrobe
 from ..services.studies.editing.making import example_text
@@ -36,6 +38,10 @@ if TYPE_CHECKING:
 app = typer.Typer(help="Studies: check, make, change, compare, start and stop them.", no_args_is_help=True)
 
 File = Annotated[Path, typer.Argument(help="A study file, YAML or JSON.")]
+RigFile = Annotated[
+    Path | None,
+    typer.Option("--rig", help="Rig file of heads called MODEL:HEAD; without it those of this machine's server."),
+]
 Id = Annotated[str, typer.Argument(metavar="ID", help="Id of the study, as in its address on the admin pages.")]
 Note = Annotated[str, typer.Option(help="Why; stands beside the status and in the audit trail.")]
 First = Annotated[str, typer.Option("--status", help="draft, pilot or recruiting.")]
@@ -53,12 +59,13 @@ FIRST = ("draft", "pilot", "recruiting")
 
 
 @app.command("check")
-def check(file: File) -> None:
+def check(file: File, rig: RigFile = None) -> None:
     """Say everything that is wrong with a study file; the status is 1 if there is anything."""
     with plainly():
-        rig = load_bundled_rig()
-        config = Wardrobe(HouseTailor(rig)).frozen(read_file(file))
-        require_fit(rig, config)
+        config = read_file(file)
+        with _wardrobe(config, rig) as wardrobe:
+            config = wardrobe.frozen(config)
+            require_fit(wardrobe.rig_of(config), config)
     typer.echo(f"{file}: a study of {len(config.emotions)} emotions, {config.hash()[:12]}")
 
 
@@ -190,6 +197,26 @@ def _move(study: str, status: Status, note: str) -> None:
     with _house() as house:
         house.life.move(study, status, None, note)
     typer.echo(f"{study}: {status}")
+
+
+@contextmanager
+def _wardrobe(config: StudyConfig, rig: Path | None) -> Iterator[Wardrobe]:
+    """Open what knows the heads of a study: those of a rig file, of this machine's server, or the bundled ones."""
+    name = model_named(config.identities)
+    if name and rig is None:
+        with _house() as house:
+            yield house.journal.wardrobe
+        return
+    if rig is not None and not name:
+        raise stop(
+            f"--rig: {expected('a study with heads called MODEL:HEAD', 'one of the bundled heads')}; leave it out"
+        )
+    models = FileModels({name: file_model(name, rig)} if rig is not None else {})
+    wardrobe = Wardrobe(HouseTailor(load_bundled_rig()), models=models)
+    try:
+        yield wardrobe
+    finally:
+        wardrobe.close()
 
 
 @contextmanager

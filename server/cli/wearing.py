@@ -15,7 +15,7 @@ from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.rendering.pool import RenderPool
 
 from ..services.faces.drawing import NoDrawer, PoolDrawer
-from ..services.faces.face_model import FileModels, file_model, name_of
+from ..services.faces.face_model import FileModels, file_model, model_named
 from ..services.faces.kept_heads import FileHeads
 from ..services.faces.model_drawers import ModelDrawers
 from ..services.faces.tailor import HouseTailor
@@ -83,7 +83,7 @@ def worn(export: Export, file: Path | None) -> Iterator[Wearing]:
         model = file_model(_name(export), file)
         rig, models = model.rig, FileModels({model.name: model})
     bundled = load_bundled_rig()
-    kept = FileHeads(bundled, partial(_file, export))
+    kept = FileHeads(partial(_file, export))
     wardrobe = Wardrobe(HouseTailor(bundled), models=models, kept=kept)
     try:
         yield Wearing(rig, wardrobe, models)
@@ -93,10 +93,11 @@ def worn(export: Export, file: Path | None) -> Iterator[Wearing]:
 
 def _name(export: Export) -> str:
     versions = [one["config"].get("identities", ()) for one in export.configurations()]
-    heads = [head for heads in versions for head in heads if isinstance(head, str)]
-    name = name_of(heads)
+    heads = [head for heads in versions for head in heads]
+    name = model_named(heads)
     if not name:
-        raise InvalidInputError(f"--rig: {expected('an export with heads called MODEL:HEAD', heads)}; leave it out")
+        bundled = [head for head in heads if isinstance(head, str)] or "documents of the bundled one"
+        raise InvalidInputError(f"--rig: {expected('an export with heads called MODEL:HEAD', bundled)}; leave it out")
     return name
 
 

@@ -9,6 +9,7 @@ from fastapi.security import HTTPBearer
 from starlette.requests import Request  # FastAPI reads it at run time
 from starlette.responses import Response, StreamingResponse
 
+from ..services.studies.simulation import RIG
 from .access import Services
 from .api_words import (
     DOWNLOADS,
@@ -101,10 +102,12 @@ def configurations(study: Study, house: Services) -> ConfigurationsBody:
 
 
 @router.get("/faces", tags=["simulation"], responses=FACES)
-def faces(ids: Ids, request: Request, house: Services) -> dict[str, list[float]]:
+def faces(ids: Ids, request: Request, response: Response, house: Services) -> dict[str, list[float]]:
     """Return the weights of faces that simulated participants were offered; of nobody else."""
     study = house.tokens.opened(bearer(request), "simulate")
-    return house.participations.weights(ids.split(","), study)
+    weights, rigs = house.participations.weights(ids.split(","), study)
+    response.headers[RIG] = ", ".join(rigs)
+    return weights
 
 
 def sent(house: Services, study: str, download: Download) -> Response:

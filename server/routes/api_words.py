@@ -234,5 +234,8 @@ DOWNLOADS: dict[str, dict[int | str, dict[str, Any]]] = {
     "package": {200: {"description": "The zip.", "headers": _HEADERS, "content": {"application/zip": _BINARY}}},
 }
 FACES: dict[int | str, dict[str, Any]] = {
-    200: {"content": {"application/json": {"example": {"0b7c": [0.0, 0.25, 1.0]}}}}
+    200: {
+        "content": {"application/json": {"example": {"0b7c": [0.0, 0.25, 1.0]}}},
+        "headers": {"Emogen-Rig": {"description": "Hash of the rig of the faces.", "schema": {"type": "string"}}},
+    }
 }

@@ -12,8 +12,10 @@ from ..store.engine import Database
 from ..store.opening import open_database
 from .config.way_back import host_list
 from .faces.heads import Heads
-from .faces.imports import HeadImporter, Imports
+from .faces.import_note import ImportNote
+from .faces.imports import MOST_SECONDS, HeadImporter, Imports
 from .faces.kept_heads import StoredHeads
+from .faces.model_desk import ModelDesk
 from .faces.model_drawers import ModelDrawers
 from .faces.models import FaceModels
 from .faces.portrait_files import PortraitFiles
@@ -78,6 +80,7 @@ class House:
     recruiting: Recruiting
     heads: Heads
     models: FaceModels
+    model_desk: ModelDesk
     imports: Imports
     editor: Editor
     making: Making
@@ -150,12 +153,13 @@ def build_house(
     """
     database = open_database(settings)
     models = FaceModels(database, settings.data_dir / "face-models")
-    kept = StoredHeads(database, rig)
+    kept = StoredHeads(database)
     wardrobe = Wardrobe(tailor or HouseTailor(rig), settings.portrait_wait_seconds, models=models, kept=kept)
     drawers = ModelDrawers(drawer, models, settings.renderer, drawer_of)
     portraits = _portraits(settings, drawers, database, wardrobe)
     journal = Journal(database, rig, portraits, wardrobe, host_list(settings.redirect_hosts))
-    imports = Imports(models, HeadImporter(), unpacked)
+    note = ImportNote(settings.data_dir / "face-models" / "import.json", MOST_SECONDS)
+    imports = Imports(models, HeadImporter(), unpacked, note)
     previews = Previews(journal)
     noise = NoiseOfSearch(wardrobe.rig_of, settings.data_dir / "noise")
     making, tokens, joining = Studies(journal), Tokens(database), Joining(journal, settings.joins_per_minute)
@@ -175,6 +179,7 @@ def build_house(
         recruiting=Recruiting(database, settings.address),
         heads=heads,
         models=models,
+        model_desk=ModelDesk(wardrobe, portraits, models),
         imports=imports,
         editor=Editor(life, heads),
         making=Making(making, life),

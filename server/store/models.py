@@ -29,11 +29,11 @@ def with_rig(tx: Tx, rig_hash: str) -> FaceModelRecord | None:
     return tx.scalars(select(FaceModelRecord).where(FaceModelRecord.rig_hash == rig_hash)).first()
 
 
-def files(tx: Tx, name: str) -> tuple[bytes, bytes] | None:
-    """Return rig file and look file of a face model."""
-    query = select(FaceModelRecord.rig, FaceModelRecord.look).where(FaceModelRecord.name == name)
-    found = tx.execute(query).first()
-    return None if found is None else (found[0], found[1])
+def files(tx: Tx, name: str) -> tuple[bytes, bytes, bytes | None] | None:
+    """Return rig file, look file and, where it has any, the file of identity modes of a face model."""
+    columns = (FaceModelRecord.rig, FaceModelRecord.look, FaceModelRecord.modes)
+    found = tx.execute(select(*columns).where(FaceModelRecord.name == name)).first()
+    return None if found is None else (found[0], found[1], found[2])
 
 
 def remove(tx: Tx, name: str) -> None:

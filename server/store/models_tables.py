@@ -29,3 +29,6 @@ class FaceModelRecord(Base):
     added_at: Mapped[datetime]
     rig: Mapped[bytes] = mapped_column(deferred=True)
     look: Mapped[bytes] = mapped_column(deferred=True)
+    sliders: Mapped[list[Any]]
+    """Names of its identity modes."""
+    modes: Mapped[bytes | None] = mapped_column(deferred=True)

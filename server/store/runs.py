@@ -194,16 +194,17 @@ def faces(tx: Tx, ids: Collection[str]) -> Sequence[Face]:
     return tx.scalars(select(Face).where(Face.id.in_(ids))).all()
 
 
-def simulated_faces(tx: Tx, ids: Collection[str], study_id: str | None) -> Sequence[Face]:
-    """Return those of the faces with these ids that simulated participants were offered, of one study or of all."""
+def simulated_faces(tx: Tx, ids: Collection[str], study_id: str | None) -> Sequence[tuple[Face, str]]:
+    """Return which of some faces simulated participants were offered, of one study or all, each with its rig's hash."""
     query = (
-        select(Face)
+        select(Face, Participation.rig_hash)
         .join(Generation, Generation.id == Face.generation_id)
         .join(Trial, Trial.id == Generation.trial_id)
         .join(Participation, Participation.id == Trial.participation_id)
         .where(Face.id.in_(ids), Participation.simulated.is_(True))
     )
-    return tx.scalars(query if study_id is None else query.where(Participation.study_id == study_id)).all()
+    found = tx.execute(query if study_id is None else query.where(Participation.study_id == study_id))
+    return [(row[0], row[1]) for row in found]
 
 
 def portrait_row(tx: Tx, key: str) -> tuple[Face | Stimulus | Estimate, Participation] | None:

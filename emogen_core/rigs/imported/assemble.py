@@ -76,11 +76,12 @@ class Wishes:
 
 @dataclass(frozen=True, eq=False)
 class Imported:
-    """A rig that was not stored yet, its look, and what its user is told."""
+    """A rig that was not stored yet, its look, its identity modes, and what its user is told."""
 
     rig: Rig
     look: Look
     findings: Findings
+    modes: Mapping[str, NDArray[np.float32]] = field(default_factory=dict)
 
 
 def import_head(path: Path, wishes: Wishes, tell: Callable[[str], object] = str) -> Imported:
@@ -115,10 +116,10 @@ def import_head(path: Path, wishes: Wishes, tell: Callable[[str], object] = str)
         rig = with_combinations(rig, made.correctives, eyes, head.findings)
     rig = freed(with_collision_correctives(rig, drop, head.findings), drop, head.findings)
     if not warped:
-        return Imported(rig, plain_look(rig), head.findings)
+        return Imported(rig, plain_look(rig), head.findings, head.model.identity_modes)
     flesh = Skin(front.vertices, front.skin, drop)
     dresser = Dresser(rig, look, template, warped, flesh, eyes)
-    return Imported(rig, dresser.dressed(wishes.wears, front.edges()), head.findings)
+    return Imported(rig, dresser.dressed(wishes.wears, front.edges()), head.findings, head.model.identity_modes)
 
 
 def _parts(head: ReadHead) -> Parts:

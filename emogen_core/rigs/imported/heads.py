@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from emogen_core.errors import InvalidInputError, expected
+from emogen_core.face.modes import PLAUSIBLE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -20,8 +21,6 @@ if TYPE_CHECKING:
     Mesh = NDArray[np.float32]
     Modes = Mapping[str, NDArray[np.float32]]
 
-PLAUSIBLE = 2.0
-"""The largest weight of a mode, and minus the smallest."""
 FIRST = "neutral"
 """Name of the head that the neutral is."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
 from fastapi import APIRouter, Path
@@ -36,12 +37,12 @@ def models(me: Me, house: Services) -> Response:
 @router.post("", response_model=None)
 async def add(request: Request, me: Experimenter, house: Services) -> Response:
     """Keep a face model, or say what is wrong with its files."""
-    async with request.form(max_files=2, max_fields=4) as form:
+    async with request.form(max_files=3, max_fields=4) as form:
         check_csrf({"csrf": str(form.get("csrf", ""))}, me.csrf)
         name = str(form.get("name", "")).strip()
-        rig, look = await _file(form, "rig"), await _file(form, "look")
+        rig, look, modes = await _file(form, "rig"), await _file(form, "look"), await _file(form, "modes")
     try:
-        await run(house.models.add, name, rig, look, me.user)
+        await run(partial(house.models.add, name, rig, look, me.user, modes=modes or None))
     except ServiceError as error:
         return await run(_page, me, house, status_of(error), error, name)
     return RedirectResponse(f"/admin/models#{name}", 303)

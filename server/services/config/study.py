@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import Field, ValidationError, model_validator
 
-from emogen_core.face.identity import worn_as
+from emogen_core.face.model_identity import known_as
 
 from .base import Language, Line, Part, misfit, moved, option, together
 from .blocks import Block, Categorise, Evolve, Order, Rate
@@ -115,12 +115,12 @@ class StudyConfig(Part):
     @property
     def heads(self) -> tuple[str, ...]:
         """The heads by the names under which the data has them; documents have to be signed."""
-        return tuple(head if isinstance(head, str) else worn_as(head["hash"]) for head in self.identities)
+        return tuple(head if isinstance(head, str) else known_as(head) for head in self.identities)
 
     @property
     def documents(self) -> dict[str, dict[str, Any]]:
         """The identity documents by the names under which the data has their heads."""
-        return {worn_as(head["hash"]): head for head in self.identities if isinstance(head, dict)}
+        return {known_as(head): head for head in self.identities if isinstance(head, dict)}
 
     @property
     def steps(self) -> tuple[Block, ...]:

@@ -8,23 +8,25 @@ what to draw it with.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Protocol, TypeVar
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
+from emogen_core.face.model_identity import MARK
+from emogen_core.face.modes import ENDING, load_modes
 from emogen_core.face.rig_file import load_rig
 from emogen_core.rendering.look import load_look
 
 from ..errors import NotFoundError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Sequence
     from pathlib import Path
 
+    from emogen_core.face.modes import ModeSpace
     from emogen_core.face.rig import Rig
+    from emogen_core.rendering.worn import WornHead
 
 T = TypeVar("T")
-
-MARK = ":"
-"""Between the name of a face model and that of one of its heads."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,12 +38,27 @@ class FaceModel:
         rig: wears its heads under their whole names, MODEL:HEAD.
         look_hash: of its look.
         files: of rig and look, for drawing processes; there the heads have their own names.
+        modes_file: of its identity modes, where it has any.
     """
 
     name: str
     rig: Rig
     look_hash: str
     files: tuple[Path, Path]
+    modes_file: Path | None = None
+
+    @cached_property
+    def modes(self) -> ModeSpace | None:
+        """Its identity modes, read when they are first asked for.
+
+        Raises:
+            RigFileError: the file is damaged, or of another rig.
+        """
+        if self.modes_file is None:
+            return None
+        space = load_modes(self.modes_file)
+        space.check_rig(self.rig)
+        return space
 
 
 class Models(Protocol):
@@ -86,10 +103,10 @@ def file_model(name: str, rig: Path) -> FaceModel:
     Raises:
         RigFileError, InvalidInputError: a file is missing or damaged, or they do not fit each other.
     """
-    look = rig.with_suffix(".look")
+    look, modes = rig.with_suffix(".look"), rig.with_suffix(ENDING)
     model, worn = load_rig(rig), load_look(look)
     worn.check(model)
-    return FaceModel(name, called(name, model), worn.hash, (rig, look))
+    return FaceModel(name, called(name, model), worn.hash, (rig, look), modes if modes.is_file() else None)
 
 
 def name_of(heads: Iterable[str]) -> str:
@@ -97,9 +114,21 @@ def name_of(heads: Iterable[str]) -> str:
     return next((head.partition(MARK)[0] for head in heads if MARK in head), "")
 
 
+def model_named(heads: Sequence[str | Mapping[str, Any]]) -> str:
+    """Return the face model that names or documents of heads are of; empty for the bundled one."""
+    named = (head.partition(MARK)[0] if MARK in head else "" for head in heads if isinstance(head, str))
+    written = (str(head.get("model", "")) for head in heads if not isinstance(head, str))
+    return next(filter(None, (*named, *written)), "")
+
+
 def own_name(identity: str) -> str:
     """Return what a head is called in the files of its model."""
     return identity.rpartition(MARK)[2]
+
+
+def own_head(head: WornHead) -> WornHead:
+    """Return a head as the files of its model call it."""
+    return replace(head, name=own_name(head.name), like=own_name(head.like))
 
 
 def called(name: str, rig: Rig) -> Rig:

@@ -17,15 +17,15 @@ import numpy as np
 from emogen_core.correctives.pipeline import face_weights
 from emogen_core.errors import IdentityError
 from emogen_core.face.identity import parsed_document, signed_document, worn_as
+from emogen_core.face.model_identity import MARK
 from emogen_core.rendering.protocol import RenderSettings
 from emogen_core.rendering.worn import WornHead, worn_rig
 from emogen_core.rigs.default_look import appearance_of
 from emogen_core.rigs.identities import IDENTITIES, preset
 
 from ..errors import ConflictError, InvalidError, NotFoundError
-from .face_model import MARK
+from .refusal import refusal
 from .sketch import Sketch
-from .wardrobe import refusal
 
 if TYPE_CHECKING:
     from concurrent.futures import Future
@@ -123,8 +123,8 @@ class Heads:
         rig = self.wardrobe.rig(name) if MARK in name else self.rig
         if name not in rig.neutrals or (rig is self.rig and name not in self.presets):
             raise NotFoundError("There is no such head.", field="name", got=name)
-        _check_emotion(rig, emotion)
-        weights = self._weights(rig, name, emotion)
+        check_emotion(rig, emotion)
+        weights = emotion_weights(rig, name, emotion)
         return self.portraits.sketched(Sketch(name, weights, LARGE if large else SMALL))
 
     def preview(self, identity: Identity, emotion: str, user: str) -> Future[bytes]:
@@ -140,15 +140,9 @@ class Heads:
             ConflictError: the same person has asked for a newer one.
             UnavailableError: other heads are being fitted for longer than anybody should wait.
         """
-        _check_emotion(self.rig, emotion)
+        check_emotion(self.rig, emotion)
         head, rig = self._worn(identity, self._ticket(user), user, moving=emotion != NEUTRAL)
-        return self.portraits.sketched(Sketch(head.name, self._weights(rig, head.name, emotion), LARGE), head)
-
-    def _weights(self, rig: Rig, head: str, emotion: str) -> NDArray[np.float32]:
-        if emotion == NEUTRAL:  # every head was made so that it collides with nothing at rest
-            return np.zeros(len(rig.shape_names), np.float32)
-        weights: NDArray[np.float32] = face_weights(rig, head, rig.emotion_genes(emotion)[np.newaxis]).weights[0]
-        return weights
+        return self.portraits.sketched(Sketch(head.name, emotion_weights(rig, head.name, emotion), LARGE), head)
 
     def _ticket(self, user: str) -> int:
         with self._lock:
@@ -176,7 +170,16 @@ class Heads:
         return worn
 
 
-def _check_emotion(rig: Rig, emotion: str) -> None:
+def emotion_weights(rig: Rig, head: str, emotion: str) -> NDArray[np.float32]:
+    """Return the (K,) weights of a head at rest, or with one of its rig's prototypes at full strength."""
+    if emotion == NEUTRAL:  # every head was made so that it collides with nothing at rest
+        return np.zeros(len(rig.shape_names), np.float32)
+    weights: NDArray[np.float32] = face_weights(rig, head, rig.emotion_genes(emotion)[np.newaxis]).weights[0]
+    return weights
+
+
+def check_emotion(rig: Rig, emotion: str) -> None:
+    """Refuse, by `InvalidError`, what is neither neutral nor an emotion of a rig."""
     known = (NEUTRAL, *rig.emotion_sets)
     if emotion not in known:
         wanted = f"one of {', '.join(known)}"

@@ -11,15 +11,16 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Protocol
 
 from emogen_core.errors import EmogenError
+from emogen_core.face.modes import ENDING
 
 from ..background import watched
 from ..clock import now
 from ..errors import ConflictError, InvalidError, ServiceError
 from ..own_process import PROGRAM, OwnProcess
+from .import_note import ImportNote, ImportRun
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from datetime import datetime
 
     from .models import FaceModels
 
@@ -53,16 +54,6 @@ class HeadImporter(OwnProcess):
         self.run([str(source), "--out", str(out), "--wears", wears, "--json"], out.parent / REPORT)
 
 
-@dataclass(frozen=True, slots=True)
-class ImportRun:
-    """The import that was begun last: of which name, since when, and what became of it."""
-
-    name: str
-    began_at: datetime
-    running: bool = True
-    problem: str | None = None
-
-
 @dataclass
 class Imports:
     """Makes face models of uploaded heads, one at a time, while somebody does something else.
@@ -71,14 +62,22 @@ class Imports:
         models: where they are put.
         make: does the work.
         unpack: a file and an empty folder -> what `make` reads.
+        note: keeps what became of the last one for whoever asks after a restart; without it nobody does.
     """
 
     models: FaceModels
     make: Importer
     unpack: Callable[[Path, Path], Path]
+    note: ImportNote | None = None
     last: ImportRun | None = None
     _behind: ThreadPoolExecutor = field(default_factory=lambda: ThreadPoolExecutor(1, thread_name_prefix="import"))
     _lock: threading.Lock = field(default_factory=threading.Lock)
+
+    def __post_init__(self) -> None:
+        """Tell what a process before this one left: what it could not end, or why it failed."""
+        found = self.note.read() if self.note else None
+        if found is not None and found.name not in {row.name for row in self.models.all()}:
+            self.last = found
 
     def begin(self, name: str, file: str, content: bytes, wears: str, user: str | None = None) -> None:
         """Take a file; return at once.
@@ -102,7 +101,7 @@ class Imports:
         with self._lock:
             if self.last is not None and self.last.running:
                 raise ConflictError(f"The head {self.last.name} is being imported. Wait until it is there.")
-            self.last = ImportRun(name, now())
+            self._tell(ImportRun(name, now()))
         work = self._behind.submit(self._work, name, ending, content, wears, user)
         watched(work, "a head could not be imported")
 
@@ -124,7 +123,12 @@ class Imports:
             problem = str(error)
         finally:
             assert self.last is not None
-            self.last = ImportRun(name, self.last.began_at, running=False, problem=problem)
+            self._tell(ImportRun(name, self.last.began_at, running=False, problem=problem))
+
+    def _tell(self, run: ImportRun) -> None:
+        self.last = run
+        if self.note is not None:
+            self.note.write(run)
 
     def _made(self, name: str, ending: str, content: bytes, wears: str, user: str | None) -> None:
         with TemporaryDirectory(prefix="emogen-import-") as place:
@@ -135,5 +139,6 @@ class Imports:
             self.make(self.unpack(file, folder), out, wears)
             findings = json.loads((out.parent / REPORT).read_text(encoding="utf-8"))
             told = {key: findings[key] for key in ("found", "guessed", "missing")}
-            look = out.with_suffix(".look").read_bytes()
-            self.models.add(name, out.read_bytes(), look, user, told)
+            look, modes = out.with_suffix(".look").read_bytes(), out.with_suffix(ENDING)
+            known = modes.read_bytes() if modes.is_file() else None
+            self.models.add(name, out.read_bytes(), look, user, told, modes=known)

@@ -13,6 +13,7 @@ from emogen_core.rendering.head_file import load_head, save_head
 from ...store import heads, runs
 from ...store.heads_tables import FittedHead
 from ..clock import now
+from .face_model import own_name
 
 if TYPE_CHECKING:
     from emogen_core.face.rig import Rig
@@ -27,27 +28,27 @@ FOLDER = "heads"
 class Kept(Protocol):
     """What keeps fitted heads."""
 
-    def head(self, name: str) -> WornHead | None:
-        """Return a head that was kept; nothing if there is none of this name.
+    def head(self, name: str, rig: Rig) -> WornHead | None:
+        """Return a head that was kept for a rig; nothing if there is none of this name.
 
         Raises:
             RigFileError: what was kept cannot be read.
         """
         ...
 
-    def keep(self, head: WornHead) -> WornHead:
-        """Keep a head, and return the one that stands: another process may have been quicker."""
+    def keep(self, head: WornHead, rig: Rig) -> WornHead:
+        """Keep a head of a rig, and return the one that stands: another process may have been quicker."""
         ...
 
 
 class NothingKept:
     """Keeps nothing: every head is fitted anew."""
 
-    def head(self, name: str) -> WornHead | None:  # noqa: ARG002 - a name of the protocol
+    def head(self, name: str, rig: Rig) -> WornHead | None:  # noqa: ARG002 - names of the protocol
         """Return nothing."""
         return None
 
-    def keep(self, head: WornHead) -> WornHead:
+    def keep(self, head: WornHead, rig: Rig) -> WornHead:  # noqa: ARG002 - a name of the protocol
         """Return the head."""
         return head
 
@@ -57,20 +58,19 @@ class StoredHeads:
     """Keeps heads in the database."""
 
     database: Database
-    rig: Rig
 
-    def head(self, name: str) -> WornHead | None:
+    def head(self, name: str, rig: Rig) -> WornHead | None:
         """Return a head that was kept."""
         with self.database.read() as tx:
-            content = heads.head(tx, name, self.rig.hash)
-        return None if content is None else read_head(content, self.rig)
+            content = heads.head(tx, name, rig.hash)
+        return None if content is None else read_head(content, rig)
 
-    def keep(self, head: WornHead) -> WornHead:
+    def keep(self, head: WornHead, rig: Rig) -> WornHead:
         """Keep a head, and return the one that stands."""
-        row = FittedHead(name=head.name, rig_hash=self.rig.hash, fitted_at=now(), head=_content(head, self.rig))
+        row = FittedHead(name=head.name, rig_hash=rig.hash, fitted_at=now(), head=_content(head, rig))
         with self.database.write() as tx:
             first = runs.add_once(tx, row)
-        return head if first else self.head(head.name) or head
+        return head if first else self.head(head.name, rig) or head
 
 
 @dataclass(frozen=True)
@@ -78,22 +78,20 @@ class FileHeads(NothingKept):
     """Heads as an export has them.
 
     Attributes:
-        rig: the one that they were fitted to.
         read: returns a file of the export by its name, nothing if there is none.
     """
 
-    rig: Rig
     read: Callable[[str], bytes | None]
 
-    def head(self, name: str) -> WornHead | None:
+    def head(self, name: str, rig: Rig) -> WornHead | None:
         """Return a head of the export; one that was made before exports had heads is fitted anew."""
-        content = self.read(file_of(name, self.rig.hash))
-        return None if content is None else read_head(content, self.rig)
+        content = self.read(file_of(name, rig.hash))
+        return None if content is None else read_head(content, rig)
 
 
 def file_of(name: str, rig_hash: str) -> str:
     """Return what the file of a head is called in an export."""
-    return f"{FOLDER}/{name}-{rig_hash[:12]}.head"
+    return f"{FOLDER}/{own_name(name)}-{rig_hash[:12]}.head"
 
 
 def read_head(content: bytes, rig: Rig) -> WornHead:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from emogen_core.errors import EmogenError, RenderingError
 from emogen_core.rendering.keys import portrait_key
 
-from .face_model import own_name
+from .face_model import own_head, own_name
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -67,8 +67,8 @@ class ModelDrawers:
         model = self._models.of(sketch.identity)
         if model is None:
             return self._own.submit(sketch, priority, head)
-        own = replace(sketch, identity=own_name(sketch.identity))
-        return _then(self._drawer(model), lambda drawer: drawer.submit(own, priority))
+        own, worn = replace(sketch, identity=own_name(sketch.identity)), None if head is None else own_head(head)
+        return _then(self._drawer(model), lambda drawer: drawer.submit(own, priority, worn))
 
     def close(self) -> None:
         """End all drawing processes."""

@@ -6,7 +6,6 @@ Their files stand in the database; each process puts them into its data folder o
 from __future__ import annotations
 
 import json
-import re
 import threading
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,6 +13,8 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from emogen_core.errors import EmogenError
+from emogen_core.face.model_identity import LONGEST_MODEL, MARK, is_model_name
+from emogen_core.face.modes import load_modes
 from emogen_core.face.rig_file import load_rig
 from emogen_core.rendering.look import load_look
 
@@ -22,7 +23,7 @@ from ...store.models_tables import FaceModelRecord
 from ..clock import now
 from ..errors import ConflictError, InvalidError, NotFoundError
 from ..people.accounts import audit
-from .face_model import MARK, FaceModel, called, unknown_model
+from .face_model import FaceModel, called, unknown_model
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -33,9 +34,7 @@ if TYPE_CHECKING:
     from ...store.engine import Database, Tx
 
 MOST_BYTES = 24 * 2**20
-"""Of each of the two files."""
-_NAME = re.compile(r"[a-z0-9](-?[a-z0-9])*")
-_LONGEST = 40
+"""Of each of the files."""
 
 
 @dataclass(frozen=True)
@@ -68,15 +67,17 @@ class FaceModels:
         with self.database.read() as tx:
             _check_free(tx, name)
 
-    def add(
+    def add(  # noqa: PLR0913 - a file each
         self,
         name: str,
         rig: bytes,
         look: bytes,
         user: str | None = None,
         findings: Mapping[str, Sequence[str]] | None = None,
+        *,
+        modes: bytes | None = None,
     ) -> FaceModelRecord:
-        """Keep a face model, once rig and look are known to be whole and to fit each other.
+        """Keep a face model, once its files are known to be whole and to fit each other.
 
         Args:
             name: what its heads are called by.
@@ -84,20 +85,22 @@ class FaceModels:
             look: the look file.
             user: who brings it.
             findings: what an import found, guessed and missed, a sentence each.
+            modes: the file of its identity modes, where it has any.
 
         Raises:
             InvalidError: no name for a face model, or files that are none or do not fit.
             ConflictError: there is another one of this name, or this one under another name.
         """
         _check_name(name)
-        for what, content in (("rig", rig), ("look", look)):
+        for what, content in {"rig": rig, "look": look, **({} if modes is None else {"modes": modes})}.items():
             _check_size(what, content)
         with TemporaryDirectory(prefix="emogen-model-") as place:
             model, worn = _read(Path(place), rig, look)
+            sliders = [] if modes is None else _sliders(Path(place), modes, model)
         row = FaceModelRecord(
             name=name, rig_hash=model.hash, look_hash=worn.hash, heads=list(model.identities),
             emotions=list(model.emotion_sets), counts=_counts(model), findings=dict(findings or {}), added_by=user,
-            added_at=now(), rig=rig, look=look,
+            added_at=now(), rig=rig, look=look, sliders=sliders, modes=modes,
         )  # fmt: skip
         with self.database.write() as tx:
             _check_new(tx, name, model.hash)
@@ -142,10 +145,13 @@ class FaceModels:
             row = models.model(tx, name)
         if row is None:
             raise unknown_model(name)
-        paths = tuple(self.folder / f"{row.rig_hash}.{ending}" for ending in ("rig", "look"))
+        paths = [
+            self.folder / f"{row.rig_hash}.{ending}" for ending in ("rig", "look", *(["modes"] * bool(row.sliders)))
+        ]
         if not all(path.is_file() for path in paths):
             self._put(name, paths)
-        return FaceModel(name, called(name, load_rig(paths[0])), row.look_hash, (paths[0], paths[1]))
+        rig, look, *modes = paths
+        return FaceModel(name, called(name, load_rig(rig)), row.look_hash, (rig, look), next(iter(modes), None))
 
     def _put(self, name: str, paths: Sequence[Path]) -> None:
         with self.database.read() as tx:
@@ -153,7 +159,7 @@ class FaceModels:
         if contents is None:
             raise unknown_model(name)
         self.folder.mkdir(parents=True, exist_ok=True)
-        for path, content in zip(paths, contents, strict=True):
+        for path, content in zip(paths, filter(None, contents), strict=True):
             part = path.with_suffix(f"{path.suffix}.{threading.get_ident()}.part")
             part.write_bytes(content)
             part.replace(path)
@@ -175,8 +181,21 @@ def _read(folder: Path, rig: bytes, look: bytes) -> tuple[Rig, Look]:
     return model, worn
 
 
+def _sliders(folder: Path, content: bytes, rig: Rig) -> list[str]:
+    path = folder / "head.modes"
+    path.write_bytes(content)
+    try:
+        space = load_modes(path)
+        space.check_rig(rig)
+    except EmogenError as error:
+        raise _refused("modes", "the file of modes beside it", error) from error
+    return list(space.modes)
+
+
 def _refused(field: str, expected: str, error: EmogenError) -> InvalidError:
-    told = str(error).replace("head.rig", "the file").replace("head.look", "the file")
+    told = str(error)
+    for name in ("head.rig", "head.look", "head.modes"):
+        told = told.replace(name, "the file")
     return InvalidError(f"The {field} cannot be used: {told}.", field=field, expected=expected, got=told)
 
 
@@ -185,8 +204,8 @@ def _counts(rig: Rig) -> dict[str, int]:
 
 
 def _check_name(name: str) -> None:
-    if not _NAME.fullmatch(name) or len(name) > _LONGEST:
-        wanted = f"1 to {_LONGEST} small letters, digits and single hyphens"
+    if not is_model_name(name):
+        wanted = f"1 to {LONGEST_MODEL} small letters, digits and single hyphens"
         raise InvalidError("Give the face model a short name.", field="name", expected=wanted, got=name)
 
 
@@ -210,4 +229,5 @@ def _check_new(tx: Tx, name: str, rig_hash: str) -> None:
 
 def _has(tx: Tx, study_id: str, name: str) -> bool:
     """Whether a study has a head of a model, in any version and condition."""
-    return any(f'"{name}{MARK}' in json.dumps(version.config) for version in studies.versions(tx, study_id))
+    plain = [json.dumps(version.config) for version in studies.versions(tx, study_id)]
+    return any(f'"{name}{MARK}' in text or f'"model": "{name}"' in text for text in plain)

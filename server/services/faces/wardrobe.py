@@ -7,7 +7,6 @@ at once for whoever waits for a head that is not ready. `rig` and `head` never w
 
 from __future__ import annotations
 
-import re
 import threading
 from collections import OrderedDict
 from concurrent.futures import ThreadPoolExecutor
@@ -15,14 +14,17 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
-from emogen_core.errors import EmogenError, IdentityError
+from emogen_core.errors import EmogenError
 from emogen_core.face.identity import read_identity, require_adult, signed_document
+from emogen_core.face.model_identity import is_of_model
 from emogen_core.rendering.worn import WornHead, worn_rig
 
 from ..background import watched
-from ..errors import ConflictError, InvalidError, UnavailableError
+from ..errors import ConflictError, UnavailableError
 from .face_model import FileModels
 from .kept_heads import NothingKept
+from .model_heads import ModelHeads
+from .refusal import refusal
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -97,6 +99,7 @@ class Wardrobe:
         """
         self._rig, self._tailor, self._patience, self._limit = tailor.rig, tailor, patience, limit
         self._models: Models = models or FileModels()
+        self._of_models = ModelHeads(self._models)
         self._kept: Kept = kept or NothingKept()
         self._pegs: OrderedDict[str, _Peg] = OrderedDict()
         self._lock = threading.Lock()
@@ -145,9 +148,14 @@ class Wardrobe:
             if isinstance(head, str):
                 heads.append(head)
             else:
-                identity = self.read(head, f"{where}identities.{place}", children=config.children)
-                heads.append(signed_document(identity, self.space))
+                heads.append(self.signed(head, f"{where}identities.{place}", children=config.children))
         return tuple(heads)
+
+    def signed(self, document: Mapping[str, Any], where: str = "identity", *, children: bool = True) -> dict[str, Any]:
+        """Return a document of either kind in its canonical form with its hashes; raises `InvalidError` as `read`."""
+        if is_of_model(document):
+            return self._of_models.signed(document, where)
+        return signed_document(self.read(document, where, children=children), self.space)
 
     def know(self, config: StudyConfig) -> None:
         """Remember which documents a study has; nothing is fitted."""
@@ -187,13 +195,11 @@ class Wardrobe:
         peg = self._peg(identity)
         if peg is not None:
             return _there(peg.rig)
-        model = self._models.of(identity)
-        return self._rig if model is None else model.rig
+        return self._base(identity)
 
     def rig_hash(self, identity: str) -> str:
         """Return the hash of the rig that a head is of, fitted or not; raises `NotFoundError` as `rig`."""
-        model = self._models.of(identity)
-        return (self._rig if model is None else model.rig).hash
+        return self._base(identity).hash
 
     @property
     def rig_hashes(self) -> tuple[str, ...]:
@@ -201,13 +207,12 @@ class Wardrobe:
         return (self._rig.hash, *self._models.hashes)
 
     def rig_of(self, config: StudyConfig) -> Rig:
-        """Return the rig of a study: that of its heads, the bundled one for documents.
+        """Return the rig of a study whose documents are signed: that of its first head, before any document is worn.
 
         Raises:
             NotFoundError: it is of a face model that is not here.
         """
-        named = next((head for head in config.identities if isinstance(head, str)), "")
-        return self.rig(named)
+        return self._base(config.heads[0])
 
     def head(self, identity: str) -> WornHead | None:
         """Return a head as drawing processes need it, none for those that they have; raises as `rig`."""
@@ -239,6 +244,25 @@ class Wardrobe:
             except EmogenError as error:
                 raise refusal("identity", error) from error
 
+    def anew(self, document: Mapping[str, Any], wanted: Callable[[], None] = lambda: None) -> tuple[WornHead, Rig]:
+        """Return the head of a signed document as this process makes it now, kept or not, and a rig that wears it.
+
+        Args:
+            document: of either kind.
+            wanted: as `try_on`.
+
+        Raises:
+            InvalidError: it cannot be made.
+            UnavailableError: others are being fitted for longer than anybody should wait.
+        """
+        with _turn(self._needle, self._patience):
+            wanted()
+            try:
+                head = self._made(document)
+            except EmogenError as error:
+                raise refusal("identity", error) from error
+        return head, worn_rig(self._base(head.name), head)
+
     def close(self) -> None:
         """Stop fitting."""
         self._closed = True
@@ -260,14 +284,25 @@ class Wardrobe:
             except EmogenError as error:
                 peg.problem = str(error)
                 return
-            peg.rig, peg.head = worn_rig(self._rig, head), head
+            peg.rig, peg.head = worn_rig(self._base(peg.name), head), head
         with self._lock:
             for old in [one for one in self._pegs.values() if one.head is not None][: -self._limit]:
                 old.rig = old.head = None
 
     def _fitted(self, peg: _Peg) -> WornHead:
         """Return the head as it was fitted once, here or wherever the data comes from; else fit and keep it."""
-        return self._kept.head(peg.name) or self._kept.keep(self._tailor.fit(read_identity(peg.document, self.space)))
+        rig = self._base(peg.name)
+        return self._kept.head(peg.name, rig) or self._kept.keep(self._made(peg.document), rig)
+
+    def _made(self, document: Mapping[str, Any]) -> WornHead:
+        if is_of_model(document):
+            return self._of_models.fit(document)
+        return self._tailor.fit(read_identity(document, self.space))
+
+    def _base(self, identity: str) -> Rig:
+        """Return the rig that a head is of, which need not wear it yet; raises `NotFoundError` as `rig`."""
+        model = self._models.of(identity)
+        return self._rig if model is None else model.rig
 
     def _fit_ahead(self, name: str) -> None:
         peg = self._peg(name)
@@ -293,15 +328,3 @@ def _turn(lock: threading.Lock, seconds: float) -> Iterator[None]:
         yield
     finally:
         lock.release()
-
-
-def refusal(where: str, error: EmogenError) -> InvalidError:
-    """Return an error of the core as one of a field of a request."""
-    found = re.fullmatch(r"(?:(.*?): )?expected (.*), got (.*)", str(error), re.DOTALL)
-    if found is None or not isinstance(error, IdentityError | ValueError):
-        return InvalidError(f"{where}: {error}.", field=where)
-    part, wanted, got = found.groups()
-    field = ".".join([where, *([] if part in {None, "identity"} else part.split(": "))])
-    return InvalidError(
-        f"The head cannot be used: {field}: expected {wanted}, got {got}.", field=field, expected=wanted, got=got
-    )

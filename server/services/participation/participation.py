@@ -123,8 +123,12 @@ class Participations:
         """Return an id for the answer of a page without script."""
         return new_id()
 
-    def weights(self, ids: Sequence[str], study_id: str | None = None) -> dict[str, list[float]]:
-        """Return the weights of faces that simulated participants were offered, by id; other ids are left out.
+    def weights(
+        self, ids: Sequence[str], study_id: str | None = None
+    ) -> tuple[dict[str, list[float]], tuple[str, ...]]:
+        """Return the weights of faces that simulated participants were offered, by id, and the hashes of their rigs.
+
+        Other ids are left out.
 
         Args:
             ids: the faces.
@@ -132,7 +136,8 @@ class Participations:
         """
         with self.journal.database.read() as tx:
             faces = runs.simulated_faces(tx, ids, study_id)
-            return {face.id: unpack_weights(face.weights).tolist() for face in faces}
+            weights = {face.id: unpack_weights(face.weights).tolist() for face, _ in faces}
+            return weights, tuple(sorted({rig_hash for _, rig_hash in faces}))
 
     def events(self, token: str, events: Sequence[EventBody]) -> int:
         """Store what the page saw, each event once; return how many were new.

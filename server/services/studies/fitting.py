@@ -9,7 +9,7 @@ from emogen_core.search.params import POPULATION
 
 from ..config import Categorise, Problem, Rate
 from ..errors import InvalidError
-from ..faces.face_model import MARK
+from ..faces.face_model import name_of
 from ..trials.evolution import params_of
 
 if TYPE_CHECKING:
@@ -52,12 +52,15 @@ def misfits(rig: Rig, config: StudyConfig) -> tuple[Problem, ...]:
 
 
 def _misfits(rig: Rig, config: StudyConfig, where: str) -> Iterator[Problem]:
+    own = name_of(rig.identities)
     for place, head in enumerate(config.identities):
         field = f"{where}identities.{place}"
         if isinstance(head, str) and head not in rig.identities:
             yield Problem(field, f"expected one of {', '.join(rig.identities)}", repr(head))
-        elif not isinstance(head, str) and MARK in rig.identities[0]:
-            yield Problem(field, "expected heads of one face model; documents are for the bundled one", "a document")
+        elif not isinstance(head, str) and head.get("model", "") != own:
+            yield Problem(
+                field, f"expected heads of one face model, {own or 'the bundled one'}", "a document of another"
+            )
     found = [*_genes(rig, config), *_populations(rig, config)]
     if not found:
         found = [*_rest(rig, config)]

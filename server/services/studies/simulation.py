@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 
 AT_ONCE = 4
 PATIENCE = 20
+RIG = "Emogen-Rig"
+"""Header with the hash of the rig of which weights are."""
 
 
 class Reply(Protocol):
@@ -215,6 +217,7 @@ class _Person:
             "/api/v1/faces", params={"ids": ",".join(ids)}, headers=self.simulation.bearer
         )
         weights = checked(reply)
+        _check_rig(reply.headers.get(RIG), self.simulation.rig)
         known = np.array([weights[face] for face in ids])
         mind = self._mind(trial)
         count = permitted(selection_count(trial["generation"]), trial["minimum"], trial["maximum"])
@@ -257,6 +260,16 @@ class _Mind:
         if observer.drift:
             self.genes = observer.drifted(self.genes[np.newaxis], simulation.reach.active, rng)[0]
             self.participant = replace(self.participant, target=_imagined(simulation.rig, self.genes))
+
+
+def _check_rig(told: str | None, rig: Rig) -> None:
+    """Refuse faces of another rig than the one that faces in mind are of; a server of an older release tells none."""
+    if told and told != rig.hash:
+        raise ConflictError(
+            f"The faces are of the rig {told[:12]}: expected {rig.hash[:12]}. Name the rig file of the study's heads"
+            " with --rig.",
+            field="rig", expected=rig.hash, got=told,
+        )  # fmt: skip
 
 
 def _imagined(rig: Rig, genes: NDArray[np.float64]) -> NDArray[np.float32]:

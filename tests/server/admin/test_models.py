@@ -4,10 +4,12 @@ import re
 
 import pytest
 
+from server.services.clock import now
+from server.services.faces.import_note import INTERRUPTED, ImportRun
 from server.services.faces.models import MOST_BYTES
 from tests.conftest import PIXEL, small_study
 from tests.server.admin.test_account import csrf, owner, visitor  # noqa: F401
-from tests.server.services.faces.model_files import model_files
+from tests.server.services.faces.model_files import model_files, modes_file
 from tests.server.services.faces.test_imports import FINDINGS, Fake
 
 PAGE = "/admin/models"
@@ -42,6 +44,17 @@ def test_a_model_is_added_shown_used_and_removed(owner, house, files):  # noqa: 
     assert "There are none yet" in owner.get(PAGE).text
 
 
+def test_modes_come_as_a_third_file(owner, house, files, tmp_path):  # noqa: F811
+    data = {"csrf": csrf(owner.get(PAGE)), "name": "lab"}
+    sent = {name: (f"lab.{name}", content) for name, content in zip(("rig", "look"), files, strict=True)}
+    wrong = owner.post(PAGE, data=data, files={**sent, "modes": ("lab.modes", b"none")})
+    assert wrong.status_code == 422 and "The modes cannot be used" in wrong.text
+    sent["modes"] = ("lab.modes", modes_file(tmp_path, files[0]))
+    assert owner.post(PAGE, data=data, files=sent).status_code == 303
+    assert house.models.all()[0].sliders == ["identity000", "identity001"]
+    assert "24 vertices, 2 identity modes." in owner.get(PAGE).text
+
+
 def test_a_head_is_imported_behind_the_scenes(owner, house, tmp_path):  # noqa: F811
     make = house.imports.make = Fake(tmp_path)
     make.go.clear()
@@ -59,6 +72,14 @@ def test_a_head_is_imported_behind_the_scenes(owner, house, tmp_path):  # noqa: 
     for one in (one for kind in FINDINGS.values() for one in kind):
         assert f"<li>{one}</li>" in page
     assert make.given == [("lab.glb", b"glTF", "male")]
+
+
+def test_an_import_that_a_restart_interrupted_is_told(owner, house):  # noqa: F811
+    house.imports.note.write(ImportRun("lab", now()))
+    house.imports.last = house.imports.note.read()
+    page = owner.get(PAGE).text
+    assert f"<b>lab</b> was not imported. {INTERRUPTED}" in page
+    assert "data-running" not in page
 
 
 def test_a_head_that_is_none_is_told(owner, house, tmp_path):  # noqa: F811

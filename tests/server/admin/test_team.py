@@ -119,7 +119,11 @@ def test_an_account_that_is_switched_off_is_out_at_once(owner, house, join):  # 
 
 OWN = {"/admin/logout", "/admin/account/password", "/admin/account/sessions/{session}/end", "/admin/tokens"}
 """What anybody who is signed in may send."""
-PREVIEWS = {"/admin/heads", "/admin/heads/preview", "/admin/heads/document", "/admin/heads/upload"}
+_MODES = "/admin/models/{name}/heads"
+PREVIEWS = {
+    "/admin/heads", "/admin/heads/preview", "/admin/heads/document", "/admin/heads/upload",
+    _MODES, f"{_MODES}/preview", f"{_MODES}/document",
+}  # fmt: skip
 """Change nothing: a head is drawn or handed back."""
 REPORTS = {"/admin/studies/{study}/analysis"}
 """An analyst's work: a report is made of what they may export, and changes nothing of the study."""

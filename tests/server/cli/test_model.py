@@ -9,7 +9,9 @@ from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.face.rig_file import save_rig
 from emogen_core.rendering.look import save_look
 from emogen_core.rendering.setup import bundled_look
-from tests.server.cli.running import emogen
+from server.cli.housed import opened
+from server.settings import Settings
+from tests.server.cli.running import Server, emogen
 
 STUDY = """
 title: Heads of the laboratory
@@ -50,6 +52,47 @@ def test_models_are_listed_and_stay_while_a_study_has_them(package):
     refused = emogen(data, "model", "remove", "lab")
     assert refused.returncode == 1
     assert "The study Heads of the laboratory has heads of lab" in refused.stderr
+
+
+def test_a_study_file_is_checked_with_the_rig_file_or_with_the_model_of_the_server(package, lab, tmp_path):
+    data, _, _ = package
+    file = tmp_path / "study.yaml"
+    file.write_text(STUDY)
+    fits = "a study of 1 emotions"
+    for place, words in ((data, ()), (tmp_path / "var", ("--rig", str(lab)))):
+        done = emogen(place, "study", "check", str(file), *words)
+        assert done.returncode == 0, done.stderr
+        assert fits in done.stdout
+    elsewhere = emogen(tmp_path / "var", "study", "check", str(file))
+    assert elsewhere.returncode == 1
+    assert elsewhere.stderr.startswith("The face model lab is not here. Add it to the server, or name its rig file")
+    file.write_text(STUDY.replace("lab:male", "lab:anna"))
+    for place, words in ((data, ()), (tmp_path / "var", ("--rig", str(lab)))):
+        wrong = emogen(place, "study", "check", str(file), *words)
+        assert wrong.returncode == 1
+        assert wrong.stderr.splitlines() == ["identities.1: expected one of lab:female, lab:male, got 'lab:anna'."]
+    file.write_text(STUDY.replace('["lab:female", "lab:male"]', "[female]"))
+    refused = emogen(tmp_path / "var", "study", "check", str(file), "--rig", str(lab))
+    assert refused.returncode == 1
+    assert refused.stderr.startswith("--rig: expected a study with heads called MODEL:HEAD")
+    assert emogen(tmp_path / "none", "study", "check", str(file)).returncode == 0
+    assert not (tmp_path / "none").exists(), "the bundled heads need no server"
+
+
+def test_simulated_participants_go_to_a_server_with_the_rig_file_and_not_without(package, lab):
+    data, _, study = package
+    with opened(Settings(data_dir=data), drawing=False) as house:
+        token, link = house.tokens.create("far", ["simulate"], study=study), house.studies.summary(study).links[0]
+    with Server(data) as server:
+        words = ("simulate", "--url", server.base, "--link", link, "--token", token)
+        done = emogen(data, *words, "--rig", str(lab), "--json")
+        assert done.returncode == 0, done.stderr
+        assert json.loads(done.stdout)["trials"][0]["distance"] < 1
+        refused = emogen(data, *words)
+    assert refused.returncode == 1
+    assert "Name the rig file of the study's heads with --rig" in refused.stderr
+    assert "Traceback" not in refused.stderr
+    assert emogen(data, "simulate", "--rig", str(lab)).stderr.startswith("--rig: expected --url beside it")
 
 
 def test_an_export_replays_with_its_rig_file_and_not_without(package, lab, tmp_path):

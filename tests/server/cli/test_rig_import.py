@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 
+from emogen_core.face.modes import load_modes
 from emogen_core.face.rig_file import load_rig
 from emogen_core.rendering.look import load_look
 from tests.emogen_core.rigs.foreign.heads import gltf_of, made_head, write_folder
@@ -46,6 +47,21 @@ def test_a_rig_and_its_look_with_a_report(tmp_path, source):
         assert [line for line in lines if line.startswith(f"{kind}: ")] == [f"{kind}: {s}" for s in report[kind]]
 
 
+def test_a_plain_folder_of_objs_is_the_same_head(tmp_path, source):
+    write_folder(tmp_path / "var" / "plain", MODEL, neutral="head_rest")
+    rigs = []
+    for one in (source, tmp_path / "var" / "plain"):
+        done = import_(tmp_path, one, "--no-combinations", "--name", "mine", "--force")
+        assert done.returncode == 0, done.stderr
+        rigs.append(load_rig(tmp_path / "head.rig"))
+        load_look(tmp_path / "head.look").check(rigs[-1])
+    gltf, plain = rigs
+    assert "guessed: The neutral is head_rest.obj, by its name." in done.stdout.splitlines()
+    assert (plain.genes, plain.core_shapes, dict(plain.parts)) == (gltf.genes, gltf.core_shapes, dict(gltf.parts))
+    assert np.abs(plain.offsets - gltf.offsets).max() < 0.01
+    assert np.abs(plain.neutral("neutral") - gltf.neutral("neutral")).max() < 0.01
+
+
 def test_checks_take_the_file(tmp_path, source):
     assert import_(tmp_path, source, "--no-combinations").returncode == 0
     done = emogen(tmp_path / "var", "rig", "check", str(tmp_path / "head.rig"), "--faces", "2", "--json")
@@ -78,6 +94,20 @@ def test_heads_of_identity_modes(tmp_path):
     assert rig.identities == ("neutral", "anna", "random-1")
     height = {name: np.ptp(rig.neutral(name)[:, 1]) for name in rig.identities}
     assert height["anna"] == pytest.approx(1.06 * height["neutral"], rel=1e-3)
+    assert sorted(path.name for path in tmp_path.glob("head.*")) == ["head.look", "head.modes", "head.rig"]
+    space = load_modes(tmp_path / "head.modes")
+    space.check_rig(rig)
+    assert f"modes_hash: {space.hash}" in done.stdout.splitlines()
+    assert np.abs(space.modes["identity000"] - tall).max() < 0.01
+
+
+def test_modes_of_another_import_do_not_stay_beside_the_rig(tmp_path, source):
+    (tmp_path / "head.modes").write_text("theirs")
+    refused = import_(tmp_path, source, "--no-combinations")
+    assert refused.returncode == 1 and "head.modes: expected a new file" in refused.stderr
+    assert (tmp_path / "head.modes").read_text() == "theirs"
+    assert import_(tmp_path, source, "--no-combinations", "--force").returncode == 0
+    assert left(tmp_path) == ["head.look", "head.rig"]
 
 
 @pytest.mark.parametrize(

@@ -137,7 +137,7 @@ class ExportReplay:
             self.wardrobe.know(config)
             self.wardrobe.wait(name)
             kept = self.wardrobe.head(name)
-            again = self.wardrobe.try_on(self.wardrobe.read(document), lambda: None, moving=True)
+            again, _ = self.wardrobe.anew(document)
             self._heads[name] = apart(again, kept) if kept else 0.0
         return self._heads[name]
 

@@ -25,7 +25,8 @@ WHEN = (
 )
 _HEAD = (
     "a preset's name, MODEL:HEAD for a head of another face model, or custom- and the first 12 letters of the hash of"
-    " an identity document, which stands among the identities of the configuration with this row's config_hash"
+    " an identity document (MODEL:custom- if it is of another face model), which stands among the identities of the"
+    " configuration with this row's config_hash"
     " (address configurations, file configurations.json)."
 )
 _CLOCK = "on the page's clock, from the navigation"

@@ -18,6 +18,7 @@ from emogen_core.rendering.look import load_look, save_look
 from emogen_core.rendering.protocol import RenderSettings
 from emogen_core.rendering.setup import make_renderer
 from emogen_core.rigs.collision_check import check_collisions
+from emogen_core.rigs.foreign.model import HeadModel
 from emogen_core.rigs.imported.assemble import Wishes, import_head
 from tests.emogen_core.rigs.foreign.heads import gltf_of, made_head, write_folder
 from tests.emogen_core.rigs.imported.conftest import WHO
@@ -26,7 +27,10 @@ bundled = load_bundled_rig()
 
 
 def test_genes_shapes_and_vertices_come_back(imported):
-    rig = imported.rig
+    check_same(imported.rig)
+
+
+def check_same(rig):
     assert set(rig.genes) == set(bundled.genes)
     theirs = dict(zip(bundled.shape_names, bundled.shape_offsets(WHO), strict=True))
     for name, offsets in zip(rig.core_shapes, rig.offsets, strict=False):
@@ -37,6 +41,19 @@ def test_genes_shapes_and_vertices_come_back(imported):
     assert {name: last - first for name, (first, last) in rig.parts.items()} == {
         name: last - first for name, (first, last) in bundled.parts.items()
     }
+
+
+def test_a_folder_of_objs_gives_the_same_as_gltf(imported, tmp_path):
+    offsets = dict(zip(bundled.shape_names, bundled.shape_offsets(WHO), strict=True))
+    own = {name: offsets[name] for name in bundled.core_shapes}
+    model = HeadModel("theirs", bundled.neutral(WHO), bundled.triangles, bundled.parts, own)
+    write_folder(tmp_path / "theirs", model)
+    rig = import_head(tmp_path / "theirs", Wishes(wears=WHO, combinations=False)).rig
+    check_same(rig)
+    assert rig.gene_names == imported.rig.gene_names
+    assert np.array_equal(rig.triangles, imported.rig.triangles)
+    assert dict(rig.emotion_sets) == dict(imported.rig.emotion_sets)
+    assert np.abs(rig.offsets - imported.rig.offsets).max() < 1e-3
 
 
 def test_emotions_are_the_same_faces(imported):

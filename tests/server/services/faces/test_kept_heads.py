@@ -50,12 +50,12 @@ def test_another_processor_wears_the_head_that_was_measured_on(house, settings, 
 
 @BOTH
 def test_of_two_processes_that_fit_a_head_the_first_one_stands(house, rig):
-    kept = StoredHeads(house.database, rig)
+    kept = StoredHeads(house.database)
     one, other = (WornHead(NAME, rig.neutral("male") + np.float32(step), None, {}, "male") for step in (0, 1))
-    assert kept.keep(one) is one
-    assert kept.keep(other).neutral.tobytes() == one.neutral.tobytes()
-    assert kept.head(NAME).neutral.tobytes() == one.neutral.tobytes()
-    assert kept.head("custom-nobody") is None
+    assert kept.keep(one, rig) is one
+    assert kept.keep(other, rig).neutral.tobytes() == one.neutral.tobytes()
+    assert kept.head(NAME, rig).neutral.tobytes() == one.neutral.tobytes()
+    assert kept.head("custom-nobody", rig) is None
 
 
 def test_a_damaged_head_is_told(house, rig):
@@ -64,7 +64,7 @@ def test_a_damaged_head_is_told(house, rig):
     with house.database.write() as tx:
         tx.get(FittedHead, (NAME, rig.hash)).head = b"no head"
     tailor = FakeTailor(rig)
-    again = Wardrobe(tailor, kept=StoredHeads(house.database, rig))
+    again = Wardrobe(tailor, kept=StoredHeads(house.database))
     again.know(small_study(identities=(DOCUMENT,)))
     with pytest.raises(ConflictError, match="expected a readable head file"):
         again.wait(NAME)
@@ -83,7 +83,7 @@ def replayed(folder, tailor):
     export = SoundExport(folder)
     export.verify()
     files = {path.removeprefix("materials/"): path for path in export.paths}
-    kept = FileHeads(tailor.rig, lambda name: export.read(files[name]) if name in files else None)
+    kept = FileHeads(lambda name: export.read(files[name]) if name in files else None)
     wardrobe = Wardrobe(tailor, kept=kept)
     found = ExportReplay(export, wardrobe).everybody()
     worn = wardrobe.head(NAME)

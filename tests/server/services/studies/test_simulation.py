@@ -11,6 +11,7 @@ from server.services.studies import simulation
 from server.services.studies.simulation import Report, Simulation, checked
 from server.services.trials.evolution import params_of
 from tests.conftest import small_study
+from tests.rig_factory import small_rig
 
 
 class Failing(httpx2.AsyncClient):
@@ -70,6 +71,19 @@ def test_nobody_looks_for_a_face_that_the_search_cannot_reach(house, app_ready, 
     assert 0 not in reach.active
     assert asked
     assert {params.active for params in asked} == {reach.active}
+
+
+def test_faces_of_another_rig_are_not_judged(house, study, client):
+    rig = small_rig(8, 7)
+
+    async def run():
+        transport, token = httpx2.ASGITransport(create_app(house)), house.tokens.create("test", ["simulate"])
+        async with httpx2.AsyncClient(transport=transport, base_url="http://test") as far:
+            await Simulation(far, study.links[0], token, 1, rig).run(1)
+
+    told = f"of the rig {house.journal.rig.hash[:12]}: expected {rig.hash[:12]}. Name the rig file"
+    with pytest.raises(ConflictError, match=told):
+        asyncio.run(run())
 
 
 def test_another_program_at_the_address_is_said_so():
