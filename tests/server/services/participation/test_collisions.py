@@ -13,7 +13,7 @@ from emogen_core.correctives.pipeline import face_weights
 from emogen_core.face.bundled import load_bundled_rig
 from server.services.faces import correction
 from server.services.faces.sketch import unpack_genes, unpack_weights
-from server.services.participation.replay.comparison import ROUNDING
+from server.services.participation.replay.alike import ROUNDING
 from server.services.trials.answer_bodies import ANSWER
 from server.store.migrate import config, upgrade
 from server.store.runs_tables import Face
