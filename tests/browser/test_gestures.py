@@ -2,7 +2,12 @@
 
 import pytest
 
+from .conditions import DOUBLE, apart, quickly
+
 pytestmark = pytest.mark.browser
+
+HOLD = 450
+"""Milliseconds after which a finger that stays enlarges."""
 
 
 @pytest.fixture
@@ -104,24 +109,38 @@ def touch(page):
 
 
 def test_moving_cancels_a_hold(stage, phone):
-    phone.begin(stage.link("small"))
-    finger = touch(phone.page)
+    page = phone.begin(stage.link("small")).page
+    finger = touch(page)
     x, y = middle(phone, 0)
-    finger("touchStart", (x, y))
-    finger("touchMove", (x + 14, y))
-    phone.page.wait_for_timeout(600)
+
+    def move():
+        finger("touchStart", (x, y))
+        finger("touchMove", (x + 14, y))
+
+    def let_go():
+        finger("touchEnd")
+        page.keyboard.press("Escape")
+        page.locator("#enlarged[open]").wait_for(state="detached")
+
+    quickly(page, move, ["pointerdown", "pointermove"], HOLD, let_go)
+    page.wait_for_timeout(600)
     finger("touchEnd")
-    assert phone.page.locator("#enlarged[open]").count() == 0
+    assert page.locator("#enlarged[open]").count() == 0
 
 
 def test_double_tap_marks(stage, phone):
-    phone.begin(stage.link("small"))
+    page = phone.begin(stage.link("small")).page
     phone.tile(0).locator(".face").tap()
     phone.tile(3).locator(".face").tap()
-    finger = touch(phone.page)
-    for _ in range(2):
-        finger("touchStart", middle(phone, 0))
-        finger("touchEnd")
+    place = middle(phone, 0)
+
+    def double_tap():
+        apart(page)
+        for _ in range(2):
+            page.touchscreen.tap(*place)
+
+    # Two slow taps take the face back and choose it again.
+    quickly(page, double_tap, ["click"], DOUBLE, lambda: None)
     assert phone.status() == "Selected 2 · best chosen"
     assert phone.tile(0).locator(".best").is_checked()
 
