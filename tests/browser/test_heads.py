@@ -40,6 +40,7 @@ def session(desk, browser):
 def page(desk, browser, session):
     context = browser.new_context(viewport={"width": 1440, "height": 1000})
     context.add_cookies(session)
+    context.set_default_timeout(SECONDS)
     page, problems = context.new_page(), []
     page.on("pageerror", lambda error: problems.append(str(error)))
     page.goto(f"{desk.address}/admin/heads")
