@@ -8,11 +8,15 @@ from .record import answers, chosen, must_be_whole
 
 pytestmark = pytest.mark.browser
 
-# Twenty seconds of the page's timers in one; and when, on this clock, each try was made.
+# From when `hurried` is set, twenty seconds of the page's timers in one; and when, on this clock, each try was made. Not
+# sooner: the device has a second to open its memory while the page loads, and a busy machine may need a part of it.
 HURRY = """(() => {
   const real = window.setTimeout;
   let ticks = 0;
-  window.setTimeout = (run, ms, ...more) => real(() => { if (ms === 1000) ticks += 1; run(...more); }, ms / 20);
+  window.hurried = false;
+  window.setTimeout = (run, ms, ...more) => window.hurried
+    ? real(() => { if (ms === 1000) ticks += 1; run(...more); }, ms / 20)
+    : real(run, ms, ...more);
   window.tries = [];
   const send = window.fetch;
   window.fetch = (address, ...more) => {
@@ -26,6 +30,7 @@ def test_a_minute_offline(stage, player):
     page = player.page
     page.add_init_script(HURRY)
     player.begin(stage.link("small"))
+    page.evaluate("window.hurried = true")
     page.context.set_offline(True)
     before = answers(stage, page)
     player.choose(1, 5, best=5).next()
