@@ -8,7 +8,7 @@ from .record import answers, chosen, must_be_whole
 
 pytestmark = pytest.mark.browser
 
-# From when `hurried` is set, twenty seconds of the page's timers in one; and when, on this clock, each try was made. Not
+# Once `hurried` is set, twenty seconds of the page's timers in one; and when, on this clock, each try was made. Not
 # sooner: the device has a second to open its memory while the page loads, and a busy machine may need a part of it.
 HURRY = """(() => {
   const real = window.setTimeout;
