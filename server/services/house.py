@@ -15,7 +15,6 @@ from .faces.heads import Heads
 from .faces.import_note import ImportNote
 from .faces.imports import MOST_SECONDS, HeadImporter, Imports
 from .faces.kept_heads import StoredHeads
-from .faces.model_desk import ModelDesk
 from .faces.model_drawers import ModelDrawers
 from .faces.models import FaceModels
 from .faces.portrait_files import PortraitFiles
@@ -80,7 +79,6 @@ class House:
     recruiting: Recruiting
     heads: Heads
     models: FaceModels
-    model_desk: ModelDesk
     imports: Imports
     editor: Editor
     making: Making
@@ -179,7 +177,6 @@ def build_house(
         recruiting=Recruiting(database, settings.address),
         heads=heads,
         models=models,
-        model_desk=ModelDesk(wardrobe, portraits, models),
         imports=imports,
         editor=Editor(life, heads),
         making=Making(making, life),

@@ -103,3 +103,16 @@ def test_a_head_of_its_modes_follows_the_sliders_and_gets_a_study(desk):
     page.wait_for_url("**/admin/studies/**")
     (kept,) = json.loads(stage.one("SELECT config FROM study_versions ORDER BY rowid DESC LIMIT 1"))["identities"]
     assert (kept["modes"], kept["hash"][:12]) == ({"identity001": -1.0}, chosen)
+
+
+def test_the_form_of_its_study_follows_the_same_sliders(desk):
+    page, stage = desk
+    page.goto(f"{stage.address}/admin/studies/{stage.one('SELECT id FROM studies ORDER BY rowid DESC')}/design")
+    page.locator("#status", has_text="drawn in").wait_for()
+    before = page.locator("#portrait").get_attribute("src")
+    with page.expect_request("**/admin/models/lab/heads/preview") as asked:
+        page.get_by_label("identity001", exact=True).fill("2")
+    assert "mode.identity001=2" in asked.value.post_data
+    page.wait_for_function("before => document.querySelector('#portrait').src !== before", arg=before)
+    assert page.locator("#unsaved").is_visible()
+    must_be_accessible(page)

@@ -19,7 +19,7 @@ from starlette.responses import RedirectResponse, Response
 from emogen_core.face.identity import DOCUMENT_BYTES
 
 from ...services.errors import ConflictError, InvalidError, UnavailableError
-from ...services.faces.heads import NEUTRAL
+from ...services.faces.expressions import NEUTRAL
 from ...services.studies.editing.editor import NewerError, RefusedError
 from ..access import Services
 from ..errors import status_of
@@ -156,7 +156,7 @@ def _page(  # noqa: PLR0913, PLR0917 - what the page shows
 ) -> Response:
     emotion = desk.notes.get("emotion", NEUTRAL)
     face = house.editor.face(desk)
-    emotions = (NEUTRAL, *(one for one in TESTED if one in house.heads.emotions_of(face.preset)))
+    emotions = (NEUTRAL, *(one for one in TESTED if one in face.emotions))
     return study_page(
         "design", me, house, study, status, desk=desk, cards=desk.shown.cards, wrong=desk.wrong,
         problem="There is a problem" if desk.wrong else None, emotions=emotions, emotion=emotion,

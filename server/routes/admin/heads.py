@@ -20,7 +20,7 @@ from emogen_core.face.identity import DOCUMENT_BYTES
 
 from ...services.errors import ServiceError
 from ...services.faces import head_form
-from ...services.faces.heads import NEUTRAL
+from ...services.faces.expressions import NEUTRAL
 from ..access import Services
 from ..errors import status_of
 from ..portraits import within

@@ -11,7 +11,7 @@ from starlette.concurrency import run_in_threadpool as run
 from starlette.responses import JSONResponse, RedirectResponse, Response
 
 from ...services.errors import NotFoundError, ServiceError
-from ...services.faces.heads import NEUTRAL
+from ...services.faces.expressions import NEUTRAL
 from ..access import Services
 from ..errors import status_of
 from ..portraits import within
@@ -30,7 +30,7 @@ Seed = Annotated[int | None, Query(ge=0, le=1_000_000)]
 @router.get("", response_model=None)
 def heads(name: Name, me: Me, house: Services, seed: Seed = None) -> Response:
     """Show the editor with all modes at 0, or at random."""
-    return _page(me, house, name, house.model_desk.start(name, seed), seed=seed or 0)
+    return _page(me, house, name, house.heads.desk.start(name, seed), seed=seed or 0)
 
 
 @router.post("", response_model=None)
@@ -57,7 +57,7 @@ async def preview(name: Name, me: Me, form: OwnForm, house: Services) -> Respons
 async def document(name: Name, me: Me, form: OwnForm, house: Services) -> Response:
     """Download the document of the form's head."""
     try:
-        signed = await run(house.model_desk.document, name, form)
+        signed = await run(house.heads.desk.document, name, form)
     except ServiceError as error:
         return await _refused(me, name, form, house, error)
     text = json.dumps(signed, indent=2, ensure_ascii=False) + "\n"
@@ -69,7 +69,7 @@ async def document(name: Name, me: Me, form: OwnForm, house: Services) -> Respon
 async def make_study(name: Name, me: Experimenter, form: WorkForm, house: Services) -> Response:
     """Make a study with the form's head."""
     try:
-        signed = await run(house.model_desk.document, name, form)
+        signed = await run(house.heads.desk.document, name, form)
         made = await run(house.studies.with_head, signed, children=False, owner=me.user)
     except ServiceError as error:
         return await _refused(me, name, form, house, error)
@@ -77,8 +77,8 @@ async def make_study(name: Name, me: Experimenter, form: WorkForm, house: Servic
 
 
 async def _drawn(me: SignedIn, name: str, form: Form, house: House) -> tuple[dict[str, Any], bytes]:
-    signed = await run(house.model_desk.document, name, form)
-    promise = await run(house.model_desk.preview, signed, form.get("emotion", NEUTRAL), me.user)
+    signed = await run(house.heads.desk.document, name, form)
+    promise = await run(house.heads.desk.preview, signed, form.get("emotion", NEUTRAL), me.user)
     return signed, await within(promise, house.settings.portrait_wait_seconds)
 
 
@@ -86,7 +86,7 @@ async def _refused(me: SignedIn, name: str, form: Form, house: House, error: Ser
     """Show the editor again with what was wrong; what was typed stays."""
     if isinstance(error, NotFoundError):
         raise error
-    start = await run(house.model_desk.start, name)
+    start = await run(house.heads.desk.start, name)
     return await run(_page, me, house, name, start, status_of(error), form=form, problem=error.message)
 
 
@@ -102,7 +102,7 @@ def _page(  # noqa: PLR0913 - what the page shows
     form: Form | None = None,
     problem: str | None = None,
 ) -> Response:
-    desk, form = house.model_desk, form or {}
+    desk, form = house.heads.desk, form or {}
     return page(
         "model_heads", status, me=me, section="heads", model=name, head=document, typed=form, problem=problem,
         groups=desk.controls(name, document), emotions=desk.emotions(name), emotion=form.get("emotion", NEUTRAL),

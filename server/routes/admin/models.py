@@ -12,7 +12,7 @@ from starlette.requests import Request  # FastAPI reads it at run time
 from starlette.responses import RedirectResponse, Response
 
 from ...services.errors import ServiceError
-from ...services.faces.heads import NEUTRAL
+from ...services.faces.expressions import NEUTRAL
 from ...services.faces.imports import MOST_BYTES as HEAD_BYTES
 from ...services.faces.models import MOST_BYTES
 from ..access import Services

@@ -26,7 +26,6 @@ class Search(Part):
         "How a choice becomes the next ten faces. emogen: bred from the faces just chosen, as in EmoGen 2021."
         " preference: all choices of a trial together say which faces may be meant, and those are shown whose"
         " comparison tells most. Its own estimate of the face is stored beside the best one.",
-        paper="emogen",
     )
     mutations: int = option(
         2, "Mutations", f"m: how many genes of a bred face are drawn anew. {PAPER_ONLY}", paper="2", ge=0, le=20

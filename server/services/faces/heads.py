@@ -9,28 +9,25 @@ from __future__ import annotations
 
 import threading
 from collections import OrderedDict
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
-
-from emogen_core.correctives.pipeline import face_weights
 from emogen_core.errors import IdentityError
 from emogen_core.face.identity import parsed_document, signed_document, worn_as
-from emogen_core.face.model_identity import MARK
-from emogen_core.rendering.protocol import RenderSettings
+from emogen_core.face.model_identity import MARK, is_of_model
 from emogen_core.rendering.worn import WornHead, worn_rig
 from emogen_core.rigs.default_look import appearance_of
 from emogen_core.rigs.identities import IDENTITIES, preset
 
-from ..errors import ConflictError, InvalidError, NotFoundError
+from ..errors import ConflictError, NotFoundError
+from .expressions import LARGE, NEUTRAL, SMALL, check_emotion, emotion_weights
+from .model_desk import ModelDesk
 from .refusal import refusal
 from .sketch import Sketch
 
 if TYPE_CHECKING:
     from concurrent.futures import Future
-
-    from numpy.typing import NDArray
 
     from emogen_core.face.appearance import Appearance
     from emogen_core.face.identity import Identity
@@ -41,8 +38,9 @@ if TYPE_CHECKING:
     from .portraits import Portraits
     from .wardrobe import Wardrobe
 
-NEUTRAL = "neutral"
-SMALL, LARGE = RenderSettings(200, 240), RenderSettings(400, 480)
+    Described: TypeAlias = Identity | dict[str, Any]
+    """What a document describes: an identity, or the signed document of another face model's head."""
+
 _REMEMBERED = 4
 
 
@@ -54,9 +52,14 @@ class Heads:
     wardrobe: Wardrobe
     portraits: Portraits
     models: FaceModels
+    desk: ModelDesk = field(init=False)
+    """Heads of other face models in the making."""
     _tried: OrderedDict[str, tuple[WornHead, Rig]] = field(default_factory=OrderedDict)
     _latest: dict[str, int] = field(default_factory=dict)
     _lock: threading.Lock = field(default_factory=threading.Lock)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "desk", ModelDesk(self.wardrobe, self.portraits, self.models))
 
     @property
     def space(self) -> IdentitySpace:
@@ -83,6 +86,14 @@ class Heads:
         """Return neutral, and the emotions that the rig of a named head has prototypes of; of others, the bundled."""
         return (NEUTRAL, *(self.wardrobe.rig(name) if MARK in name else self.rig).emotion_sets)
 
+    def described(self, document: Any) -> Described:
+        """Return what a document of either kind describes.
+
+        Raises:
+            InvalidError: it is no head of a face model that is here.
+        """
+        return self.wardrobe.signed(document) if is_of_model(document) else self.read(document)
+
     def start(self, name: str) -> Identity:
         """Return a preset to go on from.
 
@@ -99,11 +110,11 @@ class Heads:
 
     def read_file(self, content: bytes) -> Identity:
         """Return what the document in a file describes; raises as `read`, also when the file is none."""
-        try:
-            document = parsed_document(content)
-        except IdentityError as error:
-            raise refusal("file", error) from error
-        return self.read(document)
+        return self.read(_parsed(content))
+
+    def signed_file(self, content: bytes) -> dict[str, Any]:
+        """Return the document in a file in its canonical form, of whichever face model; raises as `read_file`."""
+        return self.wardrobe.signed(_parsed(content))
 
     def signed(self, identity: Identity) -> dict[str, Any]:
         """Return the canonical document of an identity with its hashes."""
@@ -127,11 +138,11 @@ class Heads:
         weights = emotion_weights(rig, name, emotion)
         return self.portraits.sketched(Sketch(name, weights, LARGE if large else SMALL))
 
-    def preview(self, identity: Identity, emotion: str, user: str) -> Future[bytes]:
+    def preview(self, identity: Identity | Mapping[str, Any], emotion: str, user: str) -> Future[bytes]:
         """Return the promise of a portrait of an identity that no study need have.
 
         Args:
-            identity: the head and its look.
+            identity: the head and its look, or the signed document of another face model's head.
             emotion: neutral, or one of the rig's prototypes at full strength.
             user: whose preview it is; a newer one of the same person goes first.
 
@@ -140,6 +151,8 @@ class Heads:
             ConflictError: the same person has asked for a newer one.
             UnavailableError: other heads are being fitted for longer than anybody should wait.
         """
+        if isinstance(identity, Mapping):
+            return self.desk.preview(identity, emotion, user)
         check_emotion(self.rig, emotion)
         head, rig = self._worn(identity, self._ticket(user), user, moving=emotion != NEUTRAL)
         return self.portraits.sketched(Sketch(head.name, emotion_weights(rig, head.name, emotion), LARGE), head)
@@ -170,17 +183,8 @@ class Heads:
         return worn
 
 
-def emotion_weights(rig: Rig, head: str, emotion: str) -> NDArray[np.float32]:
-    """Return the (K,) weights of a head at rest, or with one of its rig's prototypes at full strength."""
-    if emotion == NEUTRAL:  # every head was made so that it collides with nothing at rest
-        return np.zeros(len(rig.shape_names), np.float32)
-    weights: NDArray[np.float32] = face_weights(rig, head, rig.emotion_genes(emotion)[np.newaxis]).weights[0]
-    return weights
-
-
-def check_emotion(rig: Rig, emotion: str) -> None:
-    """Refuse, by `InvalidError`, what is neither neutral nor an emotion of a rig."""
-    known = (NEUTRAL, *rig.emotion_sets)
-    if emotion not in known:
-        wanted = f"one of {', '.join(known)}"
-        raise InvalidError("There is no such emotion.", field="emotion", expected=wanted, got=emotion)
+def _parsed(content: bytes) -> Any:
+    try:
+        return parsed_document(content)
+    except IdentityError as error:
+        raise refusal("file", error) from error

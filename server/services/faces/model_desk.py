@@ -17,8 +17,8 @@ from emogen_core.face.modes import PLAUSIBLE
 from emogen_core.rigs.imported.heads import random_weights
 
 from ..errors import ConflictError, InvalidError, NotFoundError
+from .expressions import LARGE, NEUTRAL, check_emotion, emotion_weights
 from .head_form import Control
-from .heads import LARGE, NEUTRAL, check_emotion, emotion_weights
 from .sketch import Sketch
 
 if TYPE_CHECKING:

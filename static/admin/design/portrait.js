@@ -43,7 +43,7 @@ function body(form, panel, emotion) {
 /** A picture of the open identity. */
 async function picture(form, panel, emotion, large) {
   if (panel.dataset.variant === "document") {
-    const reply = await send("/admin/heads/preview", body(form, panel, emotion));
+    const reply = await send(panel.dataset.preview, body(form, panel, emotion));
     return reply.blob();
   }
   const name = panel.querySelector('[name$=".preset"]:checked')?.value;

@@ -1,6 +1,7 @@
 """The editor of heads of identity modes: a plain form that draws, hands out a document, and makes a study."""
 
 import html
+import json
 import re
 
 import pytest
@@ -8,10 +9,12 @@ import pytest
 from server.services.errors import ConflictError
 from tests.conftest import PIXEL
 from tests.server.admin.test_account import csrf, owner, visitor  # noqa: F401
+from tests.server.admin.test_design import Desk, errors, sent
 from tests.server.admin.test_heads import fields
 from tests.server.services.faces.model_files import model_files, modes_file
 
 PAGE = "/admin/models/lab/heads"
+FIELD = "identities.0.head"
 
 
 @pytest.fixture(autouse=True)
@@ -30,7 +33,7 @@ def drawn(house, monkeypatch):
         asked.append((sketch, head))
         return house.heads.portrait("female")
 
-    monkeypatch.setattr(house.model_desk.portraits, "sketched", _first_time(house, asked, sketched))
+    monkeypatch.setattr(house.heads.desk.portraits, "sketched", _first_time(house, asked, sketched))
     return asked
 
 
@@ -94,6 +97,62 @@ def test_a_study_is_made_with_it_and_keeps_it_when_its_design_is_saved(owner, ho
     assert document["hash"] in html.unescape(design.text)
 
 
+@pytest.fixture
+def desk(owner, form):  # noqa: F811
+    """The form of a study whose head is of the model."""
+    made = owner.post(f"{PAGE}/study", data=form | {"mode.identity003": "1.25", "name": "Anna"})
+    return Desk(owner, made.headers["location"])
+
+
+def test_the_form_of_a_study_has_the_sliders_of_its_head_and_draws_it(desk, house, drawn):
+    page = desk.open()
+    assert [sent(page)[f"{FIELD}.{name}"] for name in ("name", "mode.identity003", "mode.identity000")] == [
+        ["Anna"], ["1.25"], ["0"],
+    ]  # fmt: skip
+    assert f'data-preview="{PAGE}/preview"' in page
+    assert desk.client.get(f"{desk.base}/design/faces/0.png?emotion=happy").content == PIXEL
+    typed = desk.send(page, "preview:identities.0", **{f"{FIELD}.mode.identity003": "-1"}).text
+    assert "data:image/png;base64," in typed
+    (_, kept), (_, moved) = drawn
+    assert kept.name == house.life.config(desk.base.rpartition("/")[2]).heads[0]
+    assert moved.name.startswith("lab:custom-")
+    assert moved.name != kept.name
+    assert desk.send(typed, "save").status_code == 303
+    (head,) = house.life.config(desk.base.rpartition("/")[2]).identities
+    assert (head["model"], head["name"], head["modes"]) == ("lab", "Anna", {"identity003": -1.0})
+
+
+def test_its_buttons_stay_with_the_model(desk):
+    page = desk.open()
+    first, random = (sent(desk.send(page, f"{do}:identities.0").text) for do in ("average", "random"))
+    assert json.loads(first["identities.0.document"][0])["modes"] == {}
+    other = json.loads(random["identities.0.document"][0])
+    assert (other["model"], len(other["modes"]) > 6) == ("lab", True)
+    assert random[f"{FIELD}.mode.identity003"] == [f"{other['modes'].get('identity003', 0):g}"]
+    pasted = sent(desk.send(page, "paste:identities.0", **{"identities.0.pasted": json.dumps(other)}).text)
+    assert pasted["identities.0.document"] == random["identities.0.document"]
+    assert sent(desk.send(page, "preset:identities.0").text)["identities.0.variant"] == ["preset"]
+
+
+@pytest.mark.parametrize(("typed", "told"), [("2.5", "expected a number in [-2, 2]"), ("wide", "expected a number")])
+def test_what_is_wrong_with_a_mode_stands_at_the_head(desk, typed, told):
+    refused = desk.send(desk.open(), "save", **{f"{FIELD}.mode.identity003": typed})
+    assert refused.status_code == 422
+    ((place, words),) = errors(refused.text)
+    assert place == "f-identities-0"
+    assert told in words
+    assert sent(refused.text)[f"{FIELD}.mode.identity003"] == [typed]
+
+
+def test_a_document_of_a_model_that_is_not_here_stays_as_text(desk, house):
+    page = desk.open()
+    stranger = json.dumps({**json.loads(sent(page)["identities.0.document"][0]), "model": "gone"})
+    refused = desk.send(page, "save", **{"identities.0.document": stranger})
+    assert refused.status_code == 422
+    assert "gone" in errors(refused.text)[0][1]
+    assert sent(refused.text)["identities.0.document"] == [stranger]
+
+
 @pytest.mark.parametrize(
     ("change", "told"),
     [
@@ -115,7 +174,7 @@ def test_what_is_wrong_is_told_beside_what_was_typed(owner, form, drawn, change,
 
 
 def test_a_newer_preview_takes_the_place_of_one_that_waits(house, form, monkeypatch):
-    desk = house.model_desk
+    desk = house.heads.desk
     own, seen = house.journal.wardrobe.anew, []
 
     def anew(document, wanted):

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import secrets
 from typing import TYPE_CHECKING, Any
-
-from emogen_core.rigs.random_heads import random_head
 
 from ...errors import InvalidError
 from .compounds import VARIANT, Group, Keyed, OneOf, Rows, Switch
@@ -118,40 +115,23 @@ def _preset(form: StudyForm, fields: Fields, target: str) -> tuple[Fields, str]:
 
 
 def _average(form: StudyForm, fields: Fields, target: str) -> tuple[Fields, str]:
-    def average(head: Head) -> dict[str, Any]:
-        plain = head.document("")
-        middle = {known.name: known.default for known in head.heads.space.parameters}
-        shares = {name: middle[name] for name in plain["head"]["ancestry"]}
-        macros = {name: middle[name] for name in ("age", "weight", "muscle")}
-        return {**_unsigned(plain, "average"), "head": {"sex": 0.5, **macros, "ancestry": shares, "details": {}}}
-
-    return _worn(form, fields, target, average)
+    return _worn(form, fields, target, lambda head: head.documents(fields, target).average())
 
 
 def _random(form: StudyForm, fields: Fields, target: str) -> tuple[Fields, str]:
-    return _worn(
-        form, fields, target, lambda head: head.heads.signed(random_head(head.heads.space, secrets.randbelow(10**6)))
-    )
+    return _worn(form, fields, target, lambda head: head.documents(fields, target).random())
 
 
 def _paste(form: StudyForm, fields: Fields, target: str) -> tuple[Fields, str]:
     """Take the document that was pasted or uploaded in the place of the face; refused with the reader's own words."""
-    pasted = Given(fields).one(f"{target}.pasted")
-
-    def read(head: Head) -> dict[str, Any]:
-        return head.heads.signed(head.heads.read_file(pasted.encode()))
-
-    return _worn(form, fields, target, read)
+    pasted = Given(fields).one(f"{target}.pasted").encode()
+    return _worn(form, fields, target, lambda head: head.heads.signed_file(pasted))
 
 
 _ACTIONS: dict[str, Callable[[StudyForm, Fields, str], tuple[Fields, str]]] = {
     "add": _add, "remove": _remove, "up": _up, "down": _down, "custom": _custom, "preset": _preset,
     "average": _average, "random": _random, "paste": _paste,
 }  # fmt: skip
-
-
-def _unsigned(plain: dict[str, Any], name: str) -> dict[str, Any]:
-    return {**{key: value for key, value in plain.items() if key not in {"hash", "space"}}, "name": name}
 
 
 def _worn(form: StudyForm, fields: Fields, target: str, make: Callable[[Head], Any]) -> tuple[Fields, str]:

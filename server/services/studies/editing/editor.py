@@ -18,11 +18,9 @@ from .wrong import Wrong
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from emogen_core.face.identity import Identity
-
     from ...config import StudyConfig
     from ...config.difference import Change
-    from ...faces.heads import Heads
+    from ...faces.heads import Described, Heads
     from ..life import StudyLife, VersionLine
     from .form import Reading, Shown
     from .given import Fields
@@ -65,6 +63,7 @@ class Face:
     letter: str
     preset: str = ""
     row: int | None = None
+    emotions: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,17 +146,20 @@ class Editor:
         """Return the head whose portrait stands beside a form: the one that was opened last, or the first."""
         heads = desk.heads
         if not heads:
-            return Face("", "")
+            return Face("", "", emotions=self.heads.emotions)
         wanted = desk.focus if desk.focus.startswith("identities.") else desk.notes.get("shown", "")
         place = next((place for place, node in enumerate(heads) if node.name == wanted), 0)
         node, letter = heads[place], letter_of(place)
         value, saved = node.extra["value"], desk.saved.get(f"{node.name}.document")
         if isinstance(value, str):
-            return Face(node.name, letter, preset=value if value in self.heads.named else "")
+            known = value if value in self.heads.named else ""
+            return Face(node.name, letter, preset=known, emotions=self.heads.emotions_of(known))
         same = saved == desk.fields.get(f"{node.name}.document") and not node.changed
-        return Face(node.name, letter, row=int(node.key) if same else None)
+        model = node.extra.get("model")
+        emotions = self.heads.desk.emotions(model) if model else self.heads.emotions
+        return Face(node.name, letter, row=int(node.key) if same else None, emotions=emotions)
 
-    def typed_head(self, fields: Fields, name: str) -> Identity | str:
+    def typed_head(self, fields: Fields, name: str) -> Described | str:
         """Return a head as it is typed: its name, or what a document describes.
 
         Raises:
@@ -168,9 +170,9 @@ class Editor:
         value = shape.item.read(given, name) if isinstance(shape, Rows) else ""
         for problem in given.problems.values():
             raise InvalidError(problem.sentence, field=problem.field, expected=problem.expected, got=problem.got)
-        return value if isinstance(value, str) else self.heads.read(value)
+        return value if isinstance(value, str) else self.heads.described(value)
 
-    def head(self, study_id: str, number: int | None, row: int) -> Identity:
+    def head(self, study_id: str, number: int | None, row: int) -> Described:
         """Return a head of a saved version.
 
         Raises:
@@ -180,7 +182,7 @@ class Editor:
         if not 0 <= row < len(heads):
             raise NotFoundError("There is no such head.", field="row", got=row)
         value = heads[row]
-        return self.heads.start(value) if isinstance(value, str) else self.heads.read(value)
+        return self.heads.start(value) if isinstance(value, str) else self.heads.described(value)
 
     def save(self, study_id: str, fields: Fields, user: str | None) -> int:
         """Save a form as the next version; return its number.

@@ -10,18 +10,19 @@ import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ...errors import InvalidError, ServiceError
+from ...errors import InvalidError
 from ...faces import head_form
 from .compounds import VARIANT
+from .documents import documents_for
 from .given import Given
 from .node import Choice, Node, Words
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from emogen_core.face.identity import Identity
-
     from ...faces.heads import Heads
+    from .documents import Documents
+    from .given import Fields
 
 PRESET, DOCUMENT, HEAD = "preset", "document", "head"
 
@@ -43,11 +44,12 @@ class Head:
         if given.one(f"{name}.{VARIANT}") != DOCUMENT:
             return given.line(f"{name}.{PRESET}")
         document = self._parsed(given, name)
-        moved = self._moved(given, name, document)
+        kind = documents_for(self.heads, document)
+        moved = _moved(given, name, dict(kind.fields(document)))
         if not moved:
             return document
         try:
-            return head_form.document(moved, self.heads.space)
+            return kind.document(moved)
         except InvalidError as error:
             given.refuse(f"{name}.{HEAD}.{error.field}", f"expected {error.expected}", error.got)
             return document
@@ -60,8 +62,8 @@ class Head:
             return
         yield f"{name}.{VARIANT}", DOCUMENT
         yield f"{name}.{DOCUMENT}", json.dumps(value, ensure_ascii=False, separators=(",", ":"))
-        if identity := self.identity(value):
-            yield from self._sliders(name, identity)
+        for field, stands in documents_for(self.heads, value).fields(value):
+            yield f"{name}.{HEAD}.{field}", stands
 
     def node(self, given: Given, name: str, path: str) -> Node:
         """Return what is shown."""
@@ -69,11 +71,10 @@ class Head:
         document = variant == DOCUMENT
         names = [one for one in given.fields if one.startswith(f"{name}.{HEAD}.")] if document else []
         value = self.read(Given(given.fields), name)
-        identity = self.identity(value)
-        extra: dict[str, Any] = {VARIANT: variant, "value": value, "identity": identity}
-        extra["pasted"] = given.one(f"{name}.pasted")
-        if document and identity:
-            extra |= self._controls(identity)
+        pasted = given.one(f"{name}.pasted")
+        extra: dict[str, Any] = {VARIANT: variant, "value": value, "pasted": pasted, "shape": {}, "model": ""}
+        if document:
+            extra |= documents_for(self.heads, value).shown(value)
             extra["typed"] = {one.removeprefix(f"{name}.{HEAD}."): given.one(one) for one in names}
         presets = [Choice(one, one.capitalize()) for one in self.heads.named]
         values = [given.one(f"{name}.{DOCUMENT if document else PRESET}")]
@@ -94,12 +95,13 @@ class Head:
         known = self.heads.presets
         return self.heads.signed(self.heads.start(preset if preset in known else known[0]))
 
-    def identity(self, value: Any) -> Identity | None:
-        """Return what a head describes, nothing if it is no head."""
+    def documents(self, fields: Fields, name: str) -> Documents:
+        """Return what is done with the document of a head that is typed; of a preset, with the bundled ones."""
         try:
-            return self.heads.start(value) if isinstance(value, str) else self.heads.read(value)
-        except ServiceError:
-            return None
+            document = json.loads(Given(fields).one(f"{name}.{DOCUMENT}"))
+        except (json.JSONDecodeError, RecursionError):
+            document = None
+        return documents_for(self.heads, document)
 
     def _parsed(self, given: Given, name: str) -> Any:
         field = f"{name}.{DOCUMENT}"
@@ -109,26 +111,12 @@ class Head:
             given.refuse(field, f"expected an identity document in JSON: {error}", given.one(field))
             return {}
 
-    def _moved(self, given: Given, name: str, document: Any) -> dict[str, str]:
-        """Return the sliders as a form of a head, nothing if all stand where the document has them."""
-        prefix = f"{name}.{HEAD}."
-        typed = {one.removeprefix(prefix): given.one(one) for one in given.fields if one.startswith(prefix)}
-        identity = self.identity(document)
-        if not typed or identity is None:
-            return {}
-        stood = {one.removeprefix(prefix): value for one, value in self._sliders(name, identity)}
-        return {} if _same(typed, stood, head_form.OWN_LOOK in stood) else typed
 
-    def _sliders(self, name: str, identity: Identity) -> Iterator[tuple[str, str]]:
-        for field, value in head_form.fields(identity, self.heads.appearance(identity), self.heads.space):
-            yield f"{name}.{HEAD}.{field}", value
-
-    def _controls(self, identity: Identity) -> dict[str, Any]:
-        return {
-            "shape": head_form.groups(identity, self.heads.space),
-            "looks": head_form.looks(self.heads.appearance(identity)),
-            "own": bool(identity.appearance),
-        }
+def _moved(given: Given, name: str, stood: dict[str, str]) -> dict[str, str]:
+    """Return the sliders as a form of a head, nothing if all stand where the document has them, or it is no head."""
+    prefix = f"{name}.{HEAD}."
+    typed = {one.removeprefix(prefix): given.one(one) for one in given.fields if one.startswith(prefix)}
+    return {} if not stood or not typed or _same(typed, stood, head_form.OWN_LOOK in stood) else typed
 
 
 def _same(typed: dict[str, str], stood: dict[str, str], own: bool) -> bool:

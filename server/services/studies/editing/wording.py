@@ -63,7 +63,7 @@ def _list(field: Schema, values: Any) -> str:
 
 
 def _object(field: Schema, value: dict[str, Any]) -> str:
-    if "head" in value and "name" in value:
+    if "name" in value and ("head" in value or "modes" in value):
         return f"face of your own, {value['name']}"
     parts = []
     for name, one in value.items():

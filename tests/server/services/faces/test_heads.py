@@ -11,7 +11,7 @@ from emogen_core.face.identity import Identity
 from emogen_core.rigs.identities import preset
 from emogen_core.rigs.look.presets import presets
 from server.services.errors import ConflictError, InvalidError, NotFoundError
-from server.services.faces.heads import NEUTRAL
+from server.services.faces.expressions import NEUTRAL
 from tests.conftest import PIXEL
 
 

@@ -41,6 +41,7 @@ def test_places_of_files_begin_at_nought():
         ("emotions.3", {"adjective": "bored", "noun": "boredom"}, "Adjective: bored, Noun: boredom"),
         ("identities", ["female"], "female"),
         ("identities", [{"head": {}, "name": "A girl"}], "face of your own, A girl"),
+        ("identities", [{"modes": {}, "model": "lab", "name": "Anna"}], "face of your own, Anna"),
         ("search.fixed_population", [[0.1] * 4] * 10, "10 faces"),
         ("search.fixed_options", [[[0.1] * 4] * 10] * 2, "2 populations"),
         ("emotions.3", "–", "–"),
