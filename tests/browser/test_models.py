@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 from dataclasses import replace
 
 import pytest
@@ -116,3 +117,16 @@ def test_the_form_of_its_study_follows_the_same_sliders(desk):
     page.wait_for_function("before => document.querySelector('#portrait').src !== before", arg=before)
     assert page.locator("#unsaved").is_visible()
     must_be_accessible(page)
+
+
+def test_small_pictures_come_after_a_portrait_that_took_its_time(desk):
+    page, stage = desk
+
+    def late(route):
+        time.sleep(1)
+        route.continue_()
+
+    page.route("**/preview", late)
+    page.goto(f"{stage.address}/admin/studies/{stage.one('SELECT id FROM studies ORDER BY rowid DESC')}/design")
+    page.wait_for_function("() => [...document.querySelectorAll('.thumbs img')].every(image => image.naturalWidth)")
+    page.unroute("**/preview")

@@ -71,12 +71,15 @@ async function draw(form) {
   } finally {
     busy = false;
   }
-  if (!again) return;
+  if (!again) {
+    rested(form);
+    return;
+  }
   again = false;
   await draw(form);
 }
 
-/** The small pictures come when the sliders rest; a change meanwhile stops them. */
+/** The small pictures come when the sliders rest and the large one is there; a change meanwhile stops them. */
 async function drawThumbs(form, mine) {
   for (const image of form.querySelectorAll(".thumbs img")) {
     const panel = panelOf(form);
@@ -89,11 +92,15 @@ async function drawThumbs(form, mine) {
   }
 }
 
-function changed(form) {
-  round += 1;
+function rested(form) {
   const mine = round;
   clearTimeout(resting);
   resting = setTimeout(() => drawThumbs(form, mine), REST);
+}
+
+function changed(form) {
+  round += 1;
+  clearTimeout(resting);
   if (timer) return;
   timer = setTimeout(() => {
     timer = 0;
