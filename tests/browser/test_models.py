@@ -129,4 +129,5 @@ def test_small_pictures_come_after_a_portrait_that_took_its_time(desk):
     page.route("**/preview", late)
     page.goto(f"{stage.address}/admin/studies/{stage.one('SELECT id FROM studies ORDER BY rowid DESC')}/design")
     page.wait_for_function("() => [...document.querySelectorAll('.thumbs img')].every(image => image.naturalWidth)")
+    assert page.locator(".thumbs img:visible").count() > 1
     page.unroute("**/preview")
