@@ -6,7 +6,7 @@ Every search has streams of its own, so searches can be shared out in any way.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -54,6 +54,14 @@ class Learned:
     means: NDArray[np.float32]
     shown: NDArray[np.float32]
     doubt: NDArray[np.float32]
+
+    @property
+    def estimated(self) -> Elites:
+        """The same searches with their last mean face as result, one more after the (R, generations + 1, K) best faces.
+
+        The genes stay those of the last best face.
+        """
+        return replace(self.elites, weights=np.concatenate([self.elites.weights, self.means[:, -1:]], 1))
 
 
 def learned(experiment: Experiment, seed: Seed, searches: range) -> Learned:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from emogen_core.analysis.comparisons import controlled
 from emogen_core.analysis.intervals import mean_interval
 from emogen_core.analysis.proxy import convergence, proxy
+from emogen_core.simulation.evaluation.groups import group_count
 
 from ..charts import Axis, Caption, Panel, Tick, band, drawn, grid, line, number_axis, titles
 from ..charts.legend import bare_line, filled
@@ -14,7 +15,7 @@ from ..reporting.figures import Figure, framed
 from .apart import NOISES
 from .rows import NOISE, Span, spans_figure
 from .section import Column, Section, Sheet
-from .simulated import MOST
+from .simulated import LEARNING_MOST, MOST, learns
 from .telling import cells, each_or_all, interval, span, untold
 
 if TYPE_CHECKING:
@@ -32,6 +33,11 @@ SIZES = (
     "Simulated groups have one face in mind and as many people as the cell, since the mean of fewer is rougher;"
     f" {MOST} where there are more."
 )
+LEARNING_SIZES = (
+    f"Of a search that learns, which takes long to simulate, groups have at most {LEARNING_MOST} people, and there are"
+    f" {group_count('preference')} of a size instead of {group_count('emogen')}."
+)
+ESTIMATE = "After the last generation stands the estimate, in the place of one more best face."
 
 
 class Far(NamedTuple):
@@ -75,13 +81,18 @@ def proxies(context: Context) -> Section:
         "What somebody meant is not known; the mean face of the others stands for it (EmoGen 2021, section IV-C).",
         Sheet("proxy", (*context.key_columns, *columns), rows),
         lacks=context.lacking(((one.cell, one.faithful) for one in found), "a distance to the others' mean"),
-        notes=(SIZES,),
+        notes=_sizes(context),
         figures=(spans_figure("proxy", title, spans, "cosine distance", NOISE),) if spans else (),
         methods=(
             *_beyond(context, told),
             *untold([one.faithful for one in found], "distance to the mean of the others"),
         ),
     )  # fmt: skip
+
+
+def _sizes(context: Context) -> tuple[str, ...]:
+    """Return how large simulated groups are."""
+    return SIZES, *((LEARNING_SIZES,) if any(map(learns, context.recording.configs.values())) else ())
 
 
 def _far(context: Context, cell: Cell) -> Far:
@@ -140,7 +151,8 @@ def converging(context: Context) -> Section:
         "convergence", "Do people come nearer to what the others found?",
         "Distance of the best face of every generation to the mean of the other people's finished faces.",
         Sheet("convergence", (*context.key_columns, *columns), rows), lacks=context.lacking(found, "convergence"),
-        notes=(SIZES,), figures=(_courses(context, told),) if told else (),
+        notes=(*_sizes(context), *((ESTIMATE,) if context.recording.result == "estimate" else ())),
+        figures=(_courses(context, told),) if told else (),
         methods=(
             *_nearer(context, told), *untold([one for _, one in found], "convergence"),
         ),

@@ -17,6 +17,10 @@ Selections = Literal["paper", "three", "elite"]
 """How many faces are selected: 2, then 4, then 5; always three; only the best."""
 Algorithm = Literal["emogen", "pressure", "preference"]
 """The published search; with more selection pressure; the one that learns from every choice."""
+LEARNING: frozenset[Algorithm] = frozenset({"preference"})
+"""Those that learn from every choice: a thousand times slower than the others, and with an estimate of their own."""
+ResultName = Literal["elite", "estimate"]
+"""What a search ends with: the face last chosen as best, or its own estimate of the face in mind."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +55,7 @@ class RunSpec:
     @property
     def learns(self) -> bool:
         """Return whether the search learns from every choice."""
-        return self.algorithm == "preference"
+        return self.algorithm in LEARNING
 
     @property
     def chunk(self) -> int:

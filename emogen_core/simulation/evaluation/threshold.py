@@ -17,16 +17,15 @@ import numpy as np
 from emogen_core.errors import InvalidInputError, expected
 from emogen_core.similarity.cosine import cosine_distance
 from emogen_core.simulation.evaluation.dispersion import Dispersion, dispersion, kept
+from emogen_core.simulation.evaluation.groups import from_others
 from emogen_core.simulation.evaluation.laboratory import MEAN_HAPPY
 from emogen_core.simulation.evaluation.results import Results, Spread, averaged, spread
-from emogen_core.simulation.evaluation.specs import RunSpec
+from emogen_core.simulation.evaluation.specs import LEARNING, RunSpec
 from emogen_core.simulation.evaluation.targets import EMOTIONS, PEOPLE
 from emogen_core.simulation.evaluation.work import make
 from emogen_core.simulation.observer import FAITHFUL, Observer
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from emogen_core.simulation.evaluation.laboratory import Laboratory
     from emogen_core.simulation.evaluation.specs import Algorithm
 
@@ -34,6 +33,8 @@ SEARCHES = 500
 """As many as the paper's: ten for each of fifty people."""
 LEARNING_SEARCHES = 250
 """Of a strategy that learns, five for each: such a search takes a third of a second, a thousand times the paper's."""
+REPORTED_SEARCHES = 150
+"""Of such a strategy in a report of recorded faces, three for each: with its groups that has to fit ten minutes."""
 TYPICAL = ("target 2", MEAN_HAPPY)
 """The targets of the paper's threshold: those of many genes, which people are likely to mean."""
 NOISY = Observer(noise=0.1)
@@ -88,9 +89,23 @@ class Threshold:
     paper: Spread
 
 
+@dataclass(frozen=True, slots=True)
+class Noises:
+    """The part of a `Threshold` that recorded faces are held against."""
+
+    searches: int
+    faithful: Noise
+    noisy: Noise
+
+
 def usual_searches(algorithm: Algorithm) -> int:
     """Return how many searches the noise of a strategy rests on where nobody asks for another number."""
-    return LEARNING_SEARCHES if RunSpec("people", algorithm=algorithm).learns else SEARCHES
+    return LEARNING_SEARCHES if algorithm in LEARNING else SEARCHES
+
+
+def reported_searches(algorithm: Algorithm) -> int:
+    """Return how many searches the noise of a strategy rests on in a report of recorded faces."""
+    return REPORTED_SEARCHES if algorithm in LEARNING else SEARCHES
 
 
 def threshold(laboratory: Laboratory, searches: int | None = None) -> Threshold:
@@ -104,10 +119,8 @@ def threshold(laboratory: Laboratory, searches: int | None = None) -> Threshold:
     Raises:
         InvalidInputError: too few searches.
     """
-    wanted = usual_searches(laboratory.algorithm) if searches is None else searches
-    if wanted < 2 * PEOPLE:
-        raise InvalidInputError(f"searches: {expected(f'at least {2 * PEOPLE}', wanted)}")
-    count, how = wanted - wanted % PEOPLE, laboratory.algorithm
+    how = laboratory.algorithm
+    count = _whole(usual_searches(how) if searches is None else searches)
     kinds = [RunSpec("people", observer=observer, algorithm=how) for observer in (FAITHFUL, NOISY, RANDOM)]
     typical = [RunSpec(target, algorithm=how) for target in TYPICAL]
     results = Results(laboratory, make(laboratory, [*kinds, *typical], count))
@@ -116,25 +129,29 @@ def threshold(laboratory: Laboratory, searches: int | None = None) -> Threshold:
     return Threshold(count, faithful, noisy, random, results.no_answer(kinds[0]), paper)
 
 
-def convergence(laboratory: Laboratory, size: int, observer: Observer = FAITHFUL) -> tuple[Spread, ...]:
-    """Return, for every generation, how far best faces are from the mean of the results of others who mean the same.
-
-    The rougher that mean, the further they are: 0.26 with four others, 0.22 with fifty. So what a group of people is
-    held against has to be of its own size; the last of these is `Noise.proxy` for a size of ten.
+def noises(laboratory: Laboratory, searches: int | None = None) -> Noises:
+    """Return the noise of the laboratory's search for those who never err and those with noise, as `threshold` has it.
 
     Args:
         laboratory: as for `threshold`.
-        size: how many people mean the same face; 50 groups of them are simulated.
-        observer: how well they judge.
+        searches: as for `threshold`; by default as many as a report rests on.
 
     Raises:
-        InvalidInputError: fewer than two.
+        InvalidInputError: too few searches.
     """
-    if size < 2:
-        raise InvalidInputError(f"size: {expected('at least 2', size)}")
-    spec = RunSpec("people", observer=observer, algorithm=laboratory.algorithm)
-    (elites,) = make(laboratory, [spec], size * PEOPLE).values()
-    return tuple(spread(_from_others(elites.weights[:, at], elites.final)) for at in range(elites.weights.shape[1]))
+    how = laboratory.algorithm
+    count = _whole(reported_searches(how) if searches is None else searches)
+    kinds = [RunSpec("people", observer=observer, algorithm=how) for observer in (FAITHFUL, NOISY)]
+    results = Results(laboratory, make(laboratory, kinds, count))
+    faithful, noisy = (_noise(results, spec) for spec in kinds)
+    return Noises(count, faithful, noisy)
+
+
+def _whole(searches: int) -> int:
+    """Return as many searches for each of the people."""
+    if searches < 2 * PEOPLE:
+        raise InvalidInputError(f"searches: {expected(f'at least {2 * PEOPLE}', searches)}")
+    return searches - searches % PEOPLE
 
 
 def _noise(results: Results, spec: RunSpec) -> Noise:
@@ -147,17 +164,10 @@ def _noise(results: Results, spec: RunSpec) -> Noise:
     return Noise(
         results.last(spec),
         spread(cosine_distance(mine[rows], mine[columns]).ravel()),
-        spread(_from_others(final, final)),
+        spread(from_others(final, final)),
         tuple(spread(one) for one in cosine_distance(before, final[:, None]).T),
         float(elites.right.mean()),
         dispersion(final, searches % PEOPLE),
         dispersion(final, emotions),
         kept(final, results.target(spec)),
     )
-
-
-def _from_others(faces: NDArray[np.float32], results: NDArray[np.float32]) -> NDArray[np.float64]:
-    """Return how far (R, K) faces are from the mean of the results of the other searches for the same person."""
-    apart = results.reshape(-1, PEOPLE, results.shape[-1])  # search i is for person i % 50
-    others = (apart.sum(0) - apart) / (len(apart) - 1)
-    return cosine_distance(faces, others.reshape(faces.shape))

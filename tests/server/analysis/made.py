@@ -83,7 +83,7 @@ def recording(*parts, searches=None, judgements=None):
         searches=keys, seeds=("1",) * len(faces),
         configs={key: small_study(generations=GENERATIONS) for key in dict.fromkeys(keys.tolist())},
         studies=(), config_hashes=("c0",), algorithms=("emogen/1",), counted=faces.person_count, simulated=0,
-        left_out={"not complete": 2}, judgements=judgements or nothing,
+        left_out={"not complete": 2}, judgements=judgements or nothing, chosen=faces,
     )  # fmt: skip
 
 

@@ -125,3 +125,13 @@ def test_a_search_that_is_not_the_paper_s_says_so_and_cites_its_own():
     assert "The search preference/1 makes the next faces not by the genetic algorithm" in text
     assert REFERENCES["Brochu et al., 2007"] in text
     assert "Brochu" not in before
+
+
+def test_of_the_result_estimate_the_text_says_what_was_analysed():
+    told = context(made(template(1), 6))
+    texts = [
+        " ".join(methods(told, [], replace(FACTS, algorithms=("preference/1",), result=result)))
+        for result in ("elite", "estimate")
+    ]
+    assert "are those last chosen as best" in texts[0] and "are the estimates" not in texts[0]
+    assert "are the estimates of that search" in texts[1] and "last chosen as best" not in texts[1]

@@ -1,11 +1,17 @@
 """Simulated groups: as large as the recorded ones, and those of ten are the ones of the threshold."""
 
+from dataclasses import replace
+
+import numpy as np
 import pytest
 
 from emogen_core.analysis.enough import FEWEST_PEOPLE
 from emogen_core.analysis.recorded import Cell
-from server.analysis.simulated import MOST, group, group_size, simulate
-from tests.server.analysis.made import GENERATIONS, RIG, made, recording, template
+from emogen_core.simulation.evaluation.laboratory import Laboratory
+from emogen_core.simulation.runs import Elites
+from server.analysis.simulated import LEARNING_MOST, MOST, group, group_size, simulate
+from tests.conftest import small_study
+from tests.server.analysis.made import GENERATIONS, RIG, SEARCH, SHAPES, made, recording, template
 
 MIND = template(1)
 
@@ -27,7 +33,7 @@ def test_every_search_and_size_is_simulated_once_and_groups_of_ten_are_those_of_
     told = recording(*(made(MIND, people, emotion=emotion) for emotion, people in (("a", 10), ("b", 10), ("c", 6))))
     steps = []
     found = simulate(RIG, told, 1, lambda done, of: steps.append((done, of)))
-    assert steps == [(1, 3), (2, 3), (3, 3)]
+    assert steps == [(1, 3), (3, 3)]
     ((key, noise),) = found.thresholds.items()
     assert set(found.crowds) == {(key, 10), (key, 6)}
     ten, six = found.crowds[key, 10], found.crowds[key, 6]
@@ -35,3 +41,22 @@ def test_every_search_and_size_is_simulated_once_and_groups_of_ten_are_those_of_
     assert len(ten.faithful) == len(ten.noisy) == GENERATIONS + 1
     assert six.faithful[-1].mean > ten.faithful[-1].mean  # the mean of fewer is rougher
     assert ten.faithful[0].mean > ten.faithful[-1].mean
+
+
+def test_of_a_search_that_learns_no_more_is_simulated_than_fits_a_report(monkeypatch):
+    told = recording(*(made(MIND, people, emotion=emotion) for emotion, people in (("a", 3), ("b", 23), ("c", 60))))
+    learning = small_study(generations=GENERATIONS, search={"strategy": "preference"})
+    told = replace(told, configs={SEARCH: learning}, result="estimate")
+    searches, rng = [], np.random.default_rng(1)
+
+    def chunk(laboratory, spec, _number, count):
+        assert (spec.learns, laboratory.result) == (True, "estimate")
+        searches.append(count)
+        weights = rng.random((count, GENERATIONS + 2, SHAPES), np.float32)
+        return Elites(np.zeros((count, 1)), weights, np.ones((count, GENERATIONS + 1), bool))
+
+    monkeypatch.setattr(Laboratory, "chunk", chunk)
+    found = simulate(RIG, told, 1)
+    assert set(found.crowds) == {(SEARCH, FEWEST_PEOPLE), (SEARCH, LEARNING_MOST)}
+    assert found.thresholds[SEARCH].searches == 150
+    assert sum(searches) == 2 * (150 + 8 * LEARNING_MOST) < 600, "half a second each, of ten minutes"

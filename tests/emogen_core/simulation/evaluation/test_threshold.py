@@ -10,11 +10,10 @@ from emogen_core.simulation import learners
 from emogen_core.simulation.evaluation.specs import RunSpec
 from emogen_core.simulation.evaluation.targets import PEOPLE
 from emogen_core.simulation.evaluation.threshold import (
-    FAITHFUL,
     LEARNING_SEARCHES,
     NOISY,
     SEARCHES,
-    convergence,
+    noises,
     threshold,
     usual_searches,
 )
@@ -81,20 +80,6 @@ def test_fewer_than_two_searches_a_person_are_refused():
         threshold(small_laboratory(), 99)
 
 
-def test_a_group_is_held_against_one_of_its_size():
-    laboratory = small_laboratory()
-    ten = convergence(laboratory, 10)
-    found = threshold(laboratory, 500)
-    assert len(ten) == laboratory.params.generations + 1
-    assert ten[-1] == found.faithful.proxy
-    assert convergence(laboratory, 10, NOISY)[-1] == found.noisy.proxy
-    assert ten[0].mean > ten[-1].mean
-    sizes = [convergence(laboratory, size, FAITHFUL)[-1].mean for size in (3, 6, 12, 24)]
-    assert sizes == sorted(sizes, reverse=True)
-    with pytest.raises(InvalidInputError, match="size: expected at least 2"):
-        convergence(laboratory, 1)
-
-
 def test_a_study_whose_strategy_learns_is_told_the_noise_of_that(monkeypatch):
     monkeypatch.setattr(learning, "CHAINS", 4)  # fewer draws only make it quicker
     monkeypatch.setattr(learning, "FIRST", 50)
@@ -107,4 +92,21 @@ def test_a_study_whose_strategy_learns_is_told_the_noise_of_that(monkeypatch):
     minds = laboratory.faces(laboratory.target("people"))
     assert found.faithful.error.mean == pytest.approx(cosine_distance(elites.final, np.tile(minds, (2, 1))).mean())
     assert found.faithful != threshold(small_laboratory(generations=1), 100).faithful
+    told = noises(laboratory, 100)
+    assert (told.searches, told.faithful, told.noisy) == (found.searches, found.faithful, found.noisy)
     assert (usual_searches("preference"), usual_searches("emogen")) == (LEARNING_SEARCHES, SEARCHES)
+
+
+def test_of_the_result_estimate_the_noise_is_that_of_the_last_mean_faces(monkeypatch):
+    monkeypatch.setattr(learning, "CHAINS", 4)
+    monkeypatch.setattr(learning, "FIRST", 50)
+    monkeypatch.setattr(learners, "IN_STEP", 40)
+    laboratory = small_laboratory(generations=1)
+    laboratory.algorithm, laboratory.result = "preference", "estimate"
+    spec = RunSpec("people", observer=NOISY, algorithm="preference")
+    means = np.concatenate([laboratory.learned(spec, at, count).means for at, count in ((0, 40), (1, 40), (2, 20))])
+    minds = np.tile(laboratory.faces(laboratory.target("people")), (2, 1))
+    found = noises(laboratory, 100).noisy
+    assert found.error.mean == pytest.approx(cosine_distance(means[:, -1], minds).mean())
+    assert found.apart.mean == pytest.approx(cosine_distance(means[:50, -1], means[50:, -1]).mean())
+    assert len(found.settling) == 2, "of the best faces of both generations to the estimate"

@@ -107,6 +107,19 @@ def test_the_write_finds_it_learned_and_corrected(house, client, study, monkeypa
 
 
 @BOTH
+def test_no_transaction_is_open_while_the_search_learns(house, client, study, monkeypatch):
+    learn, connections = strategy.learn, []
+
+    def spied(*told):
+        connections.append(house.database.engine.pool.checkedout())
+        return learn(*told)
+
+    monkeypatch.setattr(strategy, "learn", spied)
+    Walker(client, study.links[0]).finish()
+    assert connections == [0] * (1 + 2 * 3)
+
+
+@BOTH
 def test_it_goes_with_its_participation_and_with_its_study(house, study, walker):
     keys = {one.portrait_key for one in estimates(house)}
     with house.database.read() as tx:

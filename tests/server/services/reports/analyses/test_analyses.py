@@ -96,6 +96,20 @@ def test_who_was_asked_for_counts(study, people, analyses, who, counted, options
     assert analyses.make.options == [options]
 
 
+def test_estimates_can_be_asked_for_where_a_search_makes_any(client, house, study, people, analyses):
+    assert list(analyses.results(study.id)) == ["elite"]
+    learning = house.studies.create(small_study(search={"strategy": "preference", "activation": (2, 3)}))
+    assert list(analyses.results(learning.id)) == ["elite"]
+    Walker(client, learning.links[0]).finish()
+    assert list(analyses.results(learning.id)) == ["elite", "estimate"]
+    analyses.begin(learning.id, "people", None, "estimate")
+    analyses.settle()
+    assert analyses.make.options == [("--result", "estimate")]
+    assert analyses.of(learning.id).counted == "1 who completed, the search’s own estimates"
+    with pytest.raises(InvalidError, match="no such result"):
+        analyses.begin(learning.id, "people", None, "odd")
+
+
 def test_nonsense_is_refused_and_leaves_nothing(study, analyses):
     with pytest.raises(InvalidError, match="no such filter"):
         analyses.begin(study.id, "odd", None)
