@@ -153,21 +153,21 @@ def _estimated(export: Export, rig: Rig, trials: Sequence[Row], who: Counted, ch
     """
     names = _column(trials, "trial")
     if "estimates" not in export.tables:  # of a release that had none
-        raise _no_estimate(len(names), trials, who)
+        raise _no_estimate(0, trials, who)
     found = Shown(export, rig, names, "estimates", "trial")
-    missing = sum(name not in found for name in names)
-    if missing:
-        raise _no_estimate(missing, trials, who)
+    there = sum(name in found for name in names)
+    if there < len(names):
+        raise _no_estimate(there, trials, who)
     weights = found.weights(names)
     ways = (np.vstack([way, one]) if len(way) else way for way, one in zip(chosen.elites, weights, strict=True))
     return replace(chosen, genes=found.genes(names), weights=weights, elites=tuple(ways))
 
 
-def _no_estimate(missing: int, trials: Sequence[Row], who: Counted) -> InvalidError:
+def _no_estimate(found: int, trials: Sequence[Row], who: Counted) -> InvalidError:
     return InvalidError(
-        f"The search's own estimates cannot be analysed: expected one of every finished face, got none of {missing} of"
-        f" {len(trials)} (searches: {', '.join(_different(who, 'algorithm'))}; only preference makes any). Analyse the"
-        " faces chosen as best (--result elite), or an export of those conditions alone whose strategy is preference."
+        f"The search's own estimates cannot be analysed: expected one for each of {len(trials)} finished faces, got"
+        f" {found} (searches: {', '.join(_different(who, 'algorithm'))}; only preference makes any). Analyse the faces"
+        " chosen as best (--result elite), or an export of those conditions alone whose strategy is preference."
     )
 
 

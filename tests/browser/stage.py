@@ -51,6 +51,7 @@ STUDIES = {
     "full": {"portrait": {"width": 200}},
     "small": SMALL,
     "asking": {**SMALL, "none_is_close": True, "pause_ms": 900},
+    "learning": {**SMALL, "search": {"strategy": "preference"}},
     "ordered": {**SMALL, "places": "fixed"},
     "unrated": {**SMALL, "ratings": ()},
     "limited": {**SMALL, "maximum": 3, "minimum": 2},

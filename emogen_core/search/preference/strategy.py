@@ -36,7 +36,8 @@ if TYPE_CHECKING:
 
 NAME = "preference"
 VERSION = 1
-REMEMBERED = 16
+REMEMBERED = 48
+"""Of each kind, in a process: more than answers are taken at once, so that the write of each finds its own."""
 
 
 def init(params: SearchParams, seed: int, attempt: int = 0) -> State:

@@ -38,8 +38,11 @@ def test_faces_are_the_estimates_and_the_faces_chosen_lead_to_them(house, client
 
 
 def test_where_a_trial_has_none_it_is_refused_in_words(house, client, tmp_path):
-    conditions = [{"name": "learning", "changes": {"search": LEARNING}}, {"name": "paper", "changes": {}}]
+    conditions = [
+        {"name": "learning", "changes": {"search": {**LEARNING, "random_genes": 6}}},
+        {"name": "paper", "changes": {}},
+    ]
     export, rig = recorded(house, client, tmp_path, people=2, conditions=conditions)
-    with pytest.raises(InvalidError, match=r"expected one of every finished face, got none of 2 of 4 .*emogen/1"):
+    with pytest.raises(InvalidError, match=r"expected one for each of 4 finished faces, got 2 .*emogen/1"):
         read(export, rig, result="estimate")
     assert len(read(export, rig).faces) == 4

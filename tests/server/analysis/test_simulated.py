@@ -45,7 +45,7 @@ def test_every_search_and_size_is_simulated_once_and_groups_of_ten_are_those_of_
 
 def test_of_a_search_that_learns_no_more_is_simulated_than_fits_a_report(monkeypatch):
     told = recording(*(made(MIND, people, emotion=emotion) for emotion, people in (("a", 3), ("b", 23), ("c", 60))))
-    learning = small_study(generations=GENERATIONS, search={"strategy": "preference"})
+    learning = small_study(generations=GENERATIONS, search={"strategy": "preference", "activation": (2, 3)})
     told = replace(told, configs={SEARCH: learning}, result="estimate")
     searches, rng = [], np.random.default_rng(1)
 
