@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from emogen_core.analysis.enough import Result
     from emogen_core.analysis.recorded import Cell, Faces
     from emogen_core.face.rig import Rig
-    from emogen_core.simulation.evaluation.threshold import Noises
+    from emogen_core.simulation.evaluation.groups import Noises
 
     from .faces import Studio
     from .reading import Recording

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, NamedTuple
 from emogen_core.analysis.comparisons import controlled
 from emogen_core.analysis.intervals import mean_interval
 from emogen_core.analysis.proxy import convergence, proxy
-from emogen_core.simulation.evaluation.groups import group_count
 
 from ..charts import Axis, Caption, Panel, Tick, band, drawn, grid, line, number_axis, titles
 from ..charts.legend import bare_line, filled
@@ -15,7 +14,7 @@ from ..reporting.figures import Figure, framed
 from .apart import NOISES
 from .rows import NOISE, Span, spans_figure
 from .section import Column, Section, Sheet
-from .simulated import LEARNING_MOST, MOST, learns
+from .simulated import MOST, extents, learns
 from .telling import cells, each_or_all, interval, span, untold
 
 if TYPE_CHECKING:
@@ -32,10 +31,6 @@ if TYPE_CHECKING:
 SIZES = (
     "Simulated groups have one face in mind and as many people as the cell, since the mean of fewer is rougher;"
     f" {MOST} where there are more."
-)
-LEARNING_SIZES = (
-    f"Of a search that learns, which takes long to simulate, groups have at most {LEARNING_MOST} people, and there are"
-    f" {group_count('preference')} of a size instead of {group_count('emogen')}."
 )
 ESTIMATE = "After the last generation stands the estimate, in the place of one more best face."
 
@@ -91,8 +86,15 @@ def proxies(context: Context) -> Section:
 
 
 def _sizes(context: Context) -> tuple[str, ...]:
-    """Return how large simulated groups are."""
-    return SIZES, *((LEARNING_SIZES,) if any(map(learns, context.recording.configs.values())) else ())
+    """Return how large simulated groups are, and how many there are where a search learns."""
+    configs = context.recording.configs
+    learning = [one for key, one in extents(configs).items() if learns(configs[key])]
+    shared = " Searches that learn share the time." if len(learning) > 1 else ""
+    return SIZES, *(
+        f"Of a search that learns, which takes long to simulate, there are {extent.minds} groups of a size, of at most"
+        f" {most} people.{shared}"
+        for extent, most in dict.fromkeys(learning)
+    )
 
 
 def _far(context: Context, cell: Cell) -> Far:

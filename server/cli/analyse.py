@@ -13,7 +13,6 @@ from threadpoolctl import threadpool_limits
 from emogen_client import EmogenClientError
 from emogen_core.errors import RenderingError
 from emogen_core.simulation.evaluation.specs import ResultName
-from emogen_core.simulation.evaluation.threshold import reported_searches
 
 from ..analysis.context import Context
 from ..analysis.counted import PEOPLE, PILOT, SIMULATED
@@ -24,7 +23,7 @@ from ..analysis.methods import Facts, methods
 from ..analysis.reading import read
 from ..analysis.restricted import filters, restricted, unchecked
 from ..analysis.sections import sections
-from ..analysis.simulated import simulate
+from ..analysis.simulated import extents, simulate
 from ..analysis.telling import counted
 from ..release import release
 from ..services.faces.correction import Correction
@@ -106,7 +105,7 @@ def _facts(kept: Export, recording: Recording, rig: Rig, kinds: tuple[str, ...],
         rig_hash=rig.hash, configurations=recording.config_hashes, algorithms=recording.algorithms,
         simulated=_share(recording.simulated, recording.counted),
         counted=_counted(recording.simulated, recording.counted, kinds),
-        seed=command[1], searches=min(reported_searches(one.search.strategy) for one in recording.configs.values()),
+        seed=command[1], searches=min(extent.searches for extent, _ in extents(recording.configs).values()),
         result=recording.result, filters=filters(kept.manifest),
         restricted=restricted(filters(kept.manifest)),
         unchecked=unchecked(filters(kept.manifest), recording.studies),

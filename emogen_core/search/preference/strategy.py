@@ -1,8 +1,8 @@
 """The strategy on plain state: `tell` learns from a choice, `ask` makes the next ten faces of what was learned.
 
 The state keeps all faces that were shown, all choices, and the draws from the posterior. Learning is the slow part;
-since a server tells, asks and tells again, what was worked out last is kept, at most `REMEMBERED` results a process and
-function. Results do not depend on it.
+since a server tells, asks and tells again, a process keeps what the last `REMEMBERED` answers led to. Results do not
+depend on it.
 """
 
 from __future__ import annotations
@@ -37,7 +37,8 @@ if TYPE_CHECKING:
 NAME = "preference"
 VERSION = 1
 REMEMBERED = 48
-"""Of each kind, in a process: more than answers are taken at once, so that the write of each finds its own."""
+"""Answers: more than a server's 40 threads take at once, so that the write of each finds its own. They take less than a
+megabyte each."""
 
 
 def init(params: SearchParams, seed: int, attempt: int = 0) -> State:
@@ -85,7 +86,7 @@ def estimate(params: SearchParams, state: State) -> Floats | None:
     return mean_face(params, state) if state.sample else None
 
 
-@lru_cache(maxsize=REMEMBERED)
+@lru_cache(maxsize=2 * REMEMBERED)  # of an answer, the faces before it and those after it
 def _shown(params: SearchParams, state: State, choice: Choice) -> Population:
     elite = np.array(state.previous[choice.elite - 1])[list(params.active)]
     rng = stream(state.seed, state.attempt, state.generation, PROPOSALS)

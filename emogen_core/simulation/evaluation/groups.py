@@ -1,74 +1,117 @@
-"""Groups of simulated people with one face in mind: how far each is from the mean of the others, by their number.
+"""What recorded faces of a search are held against: groups of simulated people with one face in mind.
 
-The rougher that mean, the further they are: 0.26 with four others, 0.22 with fifty. So what a group of people is held
-against has to be of its own size.
+How far people are from the mean of the others depends on how many they are: 0.26 with four others, 0.22 with fifty, as
+the mean of fewer is rougher. So what a group of people is held against has to be of its own size.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from emogen_core.errors import InvalidInputError, expected
-from emogen_core.similarity.cosine import cosine_distance
-from emogen_core.simulation.evaluation.results import Spread, spread
-from emogen_core.simulation.evaluation.specs import LEARNING, RunSpec
-from emogen_core.simulation.evaluation.targets import PEOPLE, SOME
-from emogen_core.simulation.evaluation.work import make
-from emogen_core.simulation.observer import FAITHFUL, Observer
+from emogen_core.simulation.evaluation.results import Results, Spread, spread
+from emogen_core.simulation.evaluation.specs import RunSpec
+from emogen_core.simulation.evaluation.targets import PEOPLE
+from emogen_core.simulation.evaluation.threshold import NOISY, SEARCHES, apart, from_others
+from emogen_core.simulation.evaluation.work import SERIAL, make
+from emogen_core.simulation.observer import FAITHFUL
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    import numpy as np
-    from numpy.typing import NDArray
+    from collections.abc import Collection, Mapping
 
     from emogen_core.simulation.evaluation.laboratory import Laboratory
-    from emogen_core.simulation.evaluation.specs import Algorithm
+    from emogen_core.simulation.evaluation.work import Progress
+    from emogen_core.simulation.runs import Elites
 
 
-def group_count(algorithm: Algorithm) -> int:
-    """Return how many groups are simulated: one for each face in mind; few where a search takes long."""
-    return SOME if algorithm in LEARNING else PEOPLE
+@dataclass(frozen=True, slots=True)
+class Extent:
+    """How much is simulated of a search, for each kind of participant.
+
+    Attributes:
+        minds: faces in mind, the first of the target `people`; each has a group.
+        searches: that `Held.error` and `Held.apart` rest on: as many for each mind, at least two.
+    """
+
+    minds: int = PEOPLE
+    searches: int = SEARCHES
 
 
-def convergence(
-    laboratory: Laboratory, sizes: Iterable[int], observer: Observer = FAITHFUL
-) -> dict[int, tuple[Spread, ...]]:
-    """Return, for every size and generation, how far best faces are from the mean of the results of the others.
+WHOLE = Extent()
+"""As `threshold`, of a search that does not learn."""
 
-    Groups are simulated once, in the greatest size; smaller ones are their first people. The last value of the size of
-    ten is `Noise.proxy` of a search that does not learn.
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """What one kind of simulated participant found, in cosine distances.
+
+    Attributes:
+        error: of a result to the face in mind.
+        apart: of two results for the same face in mind.
+        groups: people of a group -> of the best face of every generation to the mean of the others' results. The last
+            value of the size of ten is `Noise.proxy` of as many searches.
+    """
+
+    error: Spread
+    apart: Spread
+    groups: Mapping[int, tuple[Spread, ...]]
+
+
+@dataclass(frozen=True, slots=True)
+class Noises:
+    """What recorded faces are held against.
+
+    Attributes:
+        searches: for each kind of participant, that `Held.error` and `Held.apart` rest on.
+        faithful: of people who never err.
+        noisy: of people whose judged distances have a standard deviation of .1.
+    """
+
+    searches: int
+    faithful: Held
+    noisy: Held
+
+
+def noises(
+    laboratory: Laboratory,
+    sizes: Collection[int] = (),
+    extent: Extent = WHOLE,
+    progress: Progress = lambda _done, _all: None,
+) -> Noises:
+    """Return the noise of the laboratory's search, and that of groups of any size, from the same searches.
 
     Args:
         laboratory: as for `threshold`.
-        sizes: how many people of a group mean the same face.
-        observer: how well they judge.
+        sizes: how many people of a group mean the same face. More than there are searches for a mind are simulated
+            in addition.
+        extent: how much is simulated.
+        progress: told after every chunk how many are done, of how many.
 
     Raises:
-        InvalidInputError: fewer than two.
+        InvalidInputError: fewer than two people, or searches for a mind.
     """
-    wanted = sorted(set(sizes))
-    if min(wanted) < 2:
-        raise InvalidInputError(f"size: {expected('at least 2', min(wanted))}")
-    count = group_count(laboratory.algorithm)
-    target = "people" if count == PEOPLE else "some people"
-    spec = RunSpec(target, observer=observer, algorithm=laboratory.algorithm)
-    (elites,) = make(laboratory, [spec], wanted[-1] * count).values()
-    return {size: _course(elites.weights[: size * count], count) for size in wanted}
+    for name, least in (("sizes", min(sizes, default=2)), ("searches for a mind", extent.searches // extent.minds)):
+        if least < 2:
+            raise InvalidInputError(f"{name}: {expected('at least 2', least)}")
+    how = laboratory.algorithm
+    kinds = [RunSpec("people", observer=one, algorithm=how, minds=extent.minds) for one in (FAITHFUL, NOISY)]
+    count = max(extent.searches, extent.minds * max(sizes, default=0))
+    results = Results(laboratory, make(laboratory, kinds, count, SERIAL, progress))
+    return Noises(extent.searches, *(_held(results, spec, sizes, extent) for spec in kinds))
 
 
-def from_others(faces: NDArray[np.float32], results: NDArray[np.float32], count: int = PEOPLE) -> NDArray[np.float64]:
-    """Return how far (R, K) faces are from the mean of the (R, K) results of the other searches for the same person.
-
-    Args:
-        faces: of every search.
-        results: of every search; search i is for person i % `count`.
-        count: people.
-    """
-    apart = results.reshape(-1, count, results.shape[-1])
-    others = (apart.sum(0) - apart) / (len(apart) - 1)
-    return cosine_distance(faces, others.reshape(faces.shape))
+def _held(results: Results, spec: RunSpec, sizes: Collection[int], extent: Extent) -> Held:
+    elites, own = results.elites(spec), slice(extent.searches)
+    return Held(
+        spread(results.errors(spec)[own, -1]),
+        spread(apart(elites.final[own], extent.minds)),
+        {size: _course(elites, size, extent.minds) for size in sizes},
+    )
 
 
-def _course(weights: NDArray[np.float32], count: int) -> tuple[Spread, ...]:
-    return tuple(spread(from_others(weights[:, at], weights[:, -1], count)) for at in range(weights.shape[1]))
+def _course(elites: Elites, size: int, minds: int) -> tuple[Spread, ...]:
+    """Return the distances of every generation, of the first `size` people of each group."""
+    weights = elites.weights[: size * minds]
+    generations = range(weights.shape[1])
+    return tuple(spread(from_others(weights[:, at], weights[:, -1], minds)) for at in generations)

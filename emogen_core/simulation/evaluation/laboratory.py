@@ -122,7 +122,8 @@ class Laboratory:
 
     def meant(self, spec: RunSpec) -> Genomes:
         """Return the target of a run, as far as its search can reach it."""
-        return self.target(spec.target) * self._reach(spec)
+        target = self.target(spec.target)
+        return (target[: spec.minds] if spec.minds else target) * self._reach(spec)
 
     def even(self, spec: RunSpec) -> Genomes:
         """Return the (G,) genome in which all genes of a run are the same: nothing is known of what was meant."""

@@ -36,6 +36,7 @@ class RunSpec:
         algorithm: that searches.
         start: name of a fixed first population; empty for the protocol.
         genes: how many genes the search has, 0 for all; the target has no others then.
+        minds: of a target of one face a search, how many of the first there are, 0 for all.
     """
 
     target: str
@@ -46,6 +47,7 @@ class RunSpec:
     algorithm: Algorithm = "emogen"
     start: str = ""
     genes: int = 0
+    minds: int = 0
 
     @property
     def key(self) -> str:

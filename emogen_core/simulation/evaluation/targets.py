@@ -35,8 +35,6 @@ EMOTIONS = ("happy", "sad", "angry", "fearful")
 """The emotions that the paper's 240 participants had in mind."""
 PEOPLE = 50
 """People in the target `people`, each with a face of their own."""
-SOME = 8
-"""The first of them, two of each emotion: the target `some people`, for searches that take long."""
 SEED = 2021
 """Of everything that belongs to the rig and not to an evaluation."""
 _KEPT, _STRENGTH, _SHARE = 0.5, 0.2, 0.3
@@ -47,7 +45,7 @@ _TARGET_STREAM, _PEOPLE_STREAM = 1, 2
 
 
 def targets(rig: Rig, active: Genes) -> dict[str, Genomes]:
-    """Return the three targets as (G,) genomes, and of people with an emotion in mind (50, G) and (8, G) faces.
+    """Return the three targets as (G,) genomes, and `people`, the (50, G) faces of people with an emotion in mind.
 
     Args:
         rig: the face model.
@@ -55,8 +53,7 @@ def targets(rig: Rig, active: Genes) -> dict[str, Genomes]:
     """
     some = [people(rig, active, emotion, -(-PEOPLE // len(EMOTIONS))) for emotion in EMOTIONS]
     crowd = np.stack(some, axis=1).reshape(-1, len(rig.genes))[:PEOPLE]
-    made = {name: _named(rig, active, genes) for name, genes in TARGETS.items()}
-    return {**made, "people": crowd, "some people": crowd[:SOME]}
+    return {**{name: _named(rig, active, genes) for name, genes in TARGETS.items()}, "people": crowd}
 
 
 def _named(rig: Rig, active: Genes, genes: Mapping[str, float]) -> Genomes:

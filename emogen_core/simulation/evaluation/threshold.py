@@ -17,7 +17,6 @@ import numpy as np
 from emogen_core.errors import InvalidInputError, expected
 from emogen_core.similarity.cosine import cosine_distance
 from emogen_core.simulation.evaluation.dispersion import Dispersion, dispersion, kept
-from emogen_core.simulation.evaluation.groups import from_others
 from emogen_core.simulation.evaluation.laboratory import MEAN_HAPPY
 from emogen_core.simulation.evaluation.results import Results, Spread, averaged, spread
 from emogen_core.simulation.evaluation.specs import LEARNING, RunSpec
@@ -26,6 +25,8 @@ from emogen_core.simulation.evaluation.work import make
 from emogen_core.simulation.observer import FAITHFUL, Observer
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from emogen_core.simulation.evaluation.laboratory import Laboratory
     from emogen_core.simulation.evaluation.specs import Algorithm
 
@@ -33,8 +34,6 @@ SEARCHES = 500
 """As many as the paper's: ten for each of fifty people."""
 LEARNING_SEARCHES = 250
 """Of a strategy that learns, five for each: such a search takes a third of a second, a thousand times the paper's."""
-REPORTED_SEARCHES = 150
-"""Of such a strategy in a report of recorded faces, three for each: with its groups that has to fit ten minutes."""
 TYPICAL = ("target 2", MEAN_HAPPY)
 """The targets of the paper's threshold: those of many genes, which people are likely to mean."""
 NOISY = Observer(noise=0.1)
@@ -89,23 +88,9 @@ class Threshold:
     paper: Spread
 
 
-@dataclass(frozen=True, slots=True)
-class Noises:
-    """The part of a `Threshold` that recorded faces are held against."""
-
-    searches: int
-    faithful: Noise
-    noisy: Noise
-
-
 def usual_searches(algorithm: Algorithm) -> int:
     """Return how many searches the noise of a strategy rests on where nobody asks for another number."""
     return LEARNING_SEARCHES if algorithm in LEARNING else SEARCHES
-
-
-def reported_searches(algorithm: Algorithm) -> int:
-    """Return how many searches the noise of a strategy rests on in a report of recorded faces."""
-    return REPORTED_SEARCHES if algorithm in LEARNING else SEARCHES
 
 
 def threshold(laboratory: Laboratory, searches: int | None = None) -> Threshold:
@@ -119,8 +104,10 @@ def threshold(laboratory: Laboratory, searches: int | None = None) -> Threshold:
     Raises:
         InvalidInputError: too few searches.
     """
-    how = laboratory.algorithm
-    count = _whole(usual_searches(how) if searches is None else searches)
+    wanted = usual_searches(laboratory.algorithm) if searches is None else searches
+    if wanted < 2 * PEOPLE:
+        raise InvalidInputError(f"searches: {expected(f'at least {2 * PEOPLE}', wanted)}")
+    count, how = wanted - wanted % PEOPLE, laboratory.algorithm
     kinds = [RunSpec("people", observer=observer, algorithm=how) for observer in (FAITHFUL, NOISY, RANDOM)]
     typical = [RunSpec(target, algorithm=how) for target in TYPICAL]
     results = Results(laboratory, make(laboratory, [*kinds, *typical], count))
@@ -129,41 +116,34 @@ def threshold(laboratory: Laboratory, searches: int | None = None) -> Threshold:
     return Threshold(count, faithful, noisy, random, results.no_answer(kinds[0]), paper)
 
 
-def noises(laboratory: Laboratory, searches: int | None = None) -> Noises:
-    """Return the noise of the laboratory's search for those who never err and those with noise, as `threshold` has it.
+def apart(results: NDArray[np.float32], minds: int = PEOPLE) -> NDArray[np.float64]:
+    """Return the distances of every two of (R, K) results for the same face in mind; number i is for mind i % M."""
+    mine = results.reshape(-1, minds, results.shape[-1])
+    rows, columns = np.triu_indices(len(mine), 1)
+    return cosine_distance(mine[rows], mine[columns]).ravel()
+
+
+def from_others(faces: NDArray[np.float32], results: NDArray[np.float32], minds: int = PEOPLE) -> NDArray[np.float64]:
+    """Return how far (R, K) faces are from the mean of the (R, K) results of the other searches for the same mind.
 
     Args:
-        laboratory: as for `threshold`.
-        searches: as for `threshold`; by default as many as a report rests on.
-
-    Raises:
-        InvalidInputError: too few searches.
+        faces: of every search.
+        results: of every search; number i is for mind i % M.
+        minds: faces in mind.
     """
-    how = laboratory.algorithm
-    count = _whole(reported_searches(how) if searches is None else searches)
-    kinds = [RunSpec("people", observer=observer, algorithm=how) for observer in (FAITHFUL, NOISY)]
-    results = Results(laboratory, make(laboratory, kinds, count))
-    faithful, noisy = (_noise(results, spec) for spec in kinds)
-    return Noises(count, faithful, noisy)
-
-
-def _whole(searches: int) -> int:
-    """Return as many searches for each of the people."""
-    if searches < 2 * PEOPLE:
-        raise InvalidInputError(f"searches: {expected(f'at least {2 * PEOPLE}', searches)}")
-    return searches - searches % PEOPLE
+    mine = results.reshape(-1, minds, results.shape[-1])
+    others = (mine.sum(0) - mine) / (len(mine) - 1)
+    return cosine_distance(faces, others.reshape(faces.shape))
 
 
 def _noise(results: Results, spec: RunSpec) -> Noise:
     elites = results.elites(spec)
     final, before = elites.final, elites.weights[:, :-1]
-    mine = final.reshape(-1, PEOPLE, final.shape[-1])  # search i is for person i % 50
-    searches = np.arange(len(final))
+    searches = np.arange(len(final))  # number i is for person i % 50
     emotions = searches // PEOPLE * len(EMOTIONS) + searches % PEOPLE % len(EMOTIONS)  # one result a person in each
-    rows, columns = np.triu_indices(len(mine), 1)
     return Noise(
         results.last(spec),
-        spread(cosine_distance(mine[rows], mine[columns]).ravel()),
+        spread(apart(final)),
         spread(from_others(final, final)),
         tuple(spread(one) for one in cosine_distance(before, final[:, None]).T),
         float(elites.right.mean()),

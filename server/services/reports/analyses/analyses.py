@@ -48,7 +48,8 @@ KINDS = {
     "all": (Filters(), ("--pilot", "--simulated")),
 }
 """For everybody who can be counted: what is exported, and what the command is told."""
-RESULTS = {"elite": "the faces chosen as best", "estimate": "the search’s own estimates"}
+USUAL = "elite"
+RESULTS = {USUAL: "the faces chosen as best", "estimate": "the search’s own estimates"}
 """Which face of every trial can be analysed, in words."""
 
 
@@ -61,8 +62,9 @@ class Standing:
         running: whether it is being made.
         problem: why it was not made.
         who: who counts in it.
+        result: which face of every trial it is of.
         made_at: when the one that is there was begun.
-        counted: who counts in that, in words.
+        counted: who counts in that, and of which faces it is where that is not the usual one, in words.
         changed: whether data came or went since.
     """
 
@@ -70,6 +72,7 @@ class Standing:
     running: bool
     problem: str | None
     who: str
+    result: str
     made_at: datetime | None
     counted: str | None
     changed: bool
@@ -88,7 +91,7 @@ class Analyses:
     """Held from the moment a report is asked for until it is there: nothing queues, so that leases need not allow for
     it."""
 
-    def begin(self, study_id: str, who: str, user: str | None, result: str = "elite") -> None:
+    def begin(self, study_id: str, who: str, user: str | None, result: str = USUAL) -> None:
         """Ask for a report; return at once.
 
         Args:
@@ -129,14 +132,15 @@ class Analyses:
             lost = "It was interrupted." if last.ended_at is None and not running else None
             return Standing(
                 begun_at=local(last.begun_at), running=running, problem=last.problem or lost, who=last.who,
-                made_at=local(there.begun_at) if there else None, counted=there.counted if there else None,
+                result=last.result, made_at=local(there.begun_at) if there else None,
+                counted=_told(there) if there else None,
                 changed=there is not None and there.revision != revisions.revision(tx, study_id),
             )  # fmt: skip
 
     def results(self, study_id: str) -> dict[str, str]:
         """Return which faces of a trial can be analysed, with words for them; the first is the usual one."""
         with self.database.read() as tx:
-            return RESULTS if has_estimates(tx, study_id) else {"elite": RESULTS["elite"]}
+            return RESULTS if has_estimates(tx, study_id) else {USUAL: RESULTS[USUAL]}
 
     def page(self, study_id: str) -> bytes:
         """Return the page of the report.
@@ -186,10 +190,11 @@ class Analyses:
                 raise ConflictError("The report of this study is being made already. Wait until it is there.")
             rows.forget_others(tx, study_id, {there.id} if there else set())
             row = Analysis(
-                id=new_id(), study_id=study_id, who=who, revision=revisions.revision(tx, study_id), begun_at=now()
-            )
+                id=new_id(), study_id=study_id, who=who, result=result, revision=revisions.revision(tx, study_id),
+                begun_at=now(),
+            )  # fmt: skip
             rows.add(tx, row)
-            audit(tx, user, "make report", study_id, who=who, **({} if result == "elite" else {"result": result}))
+            audit(tx, user, "make report", study_id, who=who, result=result)
             return row.id
 
     def _work(self, analysis_id: str, study_id: str, who: str, result: str) -> None:
@@ -212,13 +217,13 @@ class Analyses:
     def _made(self, study_id: str, who: str, result: str) -> tuple[bytes, str]:
         """Return the files of a report as a zip, and who was counted."""
         filters, kinds = KINDS[who]
-        options = [*kinds, *(("--result", result) if result != "elite" else ()), *self._rig(study_id)]
+        options = [*kinds, *(("--result", result) if result != USUAL else ()), *self._rig(study_id)]
         with TemporaryDirectory(prefix="emogen-analysis-") as folder:
             export, out = Path(folder, f"{study_id}.zip"), Path(folder, "report")
             write_zip(self.exports.package(study_id, "parquet", filters).entries(), export)
             self.make(export, out, options)
             counted = json.loads((out / ABOUT).read_text(encoding="utf-8"))["counted"]
-            return _zipped(out), f"{counted}, {RESULTS[result]}" if result != "elite" else str(counted)
+            return _zipped(out), str(counted)
 
     def _end(
         self, analysis_id: str, *, archive: bytes | None = None, counted: str | None = None, problem: str | None = None
@@ -231,6 +236,11 @@ class Analyses:
             row.ended_at, row.archive, row.counted, row.problem = now(), archive, counted, problem
             if archive is not None:
                 rows.forget_others(tx, row.study_id, {row.id})
+
+
+def _told(row: Analysis) -> str | None:
+    """Return who counts in a report, and of which faces it is where that is not the usual one."""
+    return row.counted if row.result == USUAL else f"{row.counted}, {RESULTS[row.result]}"
 
 
 def _running(row: Analysis) -> bool:

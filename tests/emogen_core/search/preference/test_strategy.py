@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+import tracemalloc
 from dataclasses import replace
 
 import numpy as np
@@ -13,7 +14,10 @@ from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
 from emogen_core.errors import InvalidInputError
+from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.search import Choice, Population, SearchParams, State, emogen, preference
+from emogen_core.search.params import search_params
+from emogen_core.search.preference import learning, strategy
 from emogen_core.similarity.cosine import cosine_distance
 from tests.emogen_core.search.space import GENES, choices, space
 
@@ -159,3 +163,37 @@ KNOWN = [
     8001422.0,
     131338422.0,
 ]
+
+
+def test_what_is_remembered_of_a_search_takes_less_than_a_megabyte() -> None:
+    params = search_params(load_bundled_rig(), generations=30)
+    _, state = play(params, 1, [Choice((1, 2, 3), 2)] * 29)
+    stored = json.dumps(state.to_json())
+    kept = (strategy._told, strategy._shown)
+    for one in kept:
+        one.cache_clear()
+    tracemalloc.start()
+    try:
+        preference.ask(params, preference.tell(params, State.from_json(json.loads(stored)), Choice((1, 2, 3), 2)))
+        held = tracemalloc.get_traced_memory()[0]
+        for one in kept:
+            assert one.cache_info().currsize > 0
+            one.cache_clear()
+        assert held - tracemalloc.get_traced_memory()[0] < 1e6
+    finally:
+        tracemalloc.stop()
+
+
+def test_what_as_many_answers_led_to_as_are_remembered_is_found_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(learning, "CHAINS", 4)  # fewer draws only make it quicker
+    monkeypatch.setattr(learning, "FIRST", 50)
+    params, choice, misses = space(), Choice((1, 2), 1), []
+    states = [play(params, seed, [choice])[1] for seed in range(strategy.REMEMBERED)]
+    kept = (strategy._told, strategy._shown)
+    for one in kept:
+        one.cache_clear()  # as after faces that others were shown
+    for _ in range(2):
+        for state in states:
+            preference.ask(params, preference.tell(params, state, choice))
+        misses.append([one.cache_info().misses for one in kept])
+    assert misses == 2 * [[strategy.REMEMBERED, 2 * strategy.REMEMBERED]]

@@ -13,7 +13,6 @@ from emogen_core.simulation.evaluation.threshold import (
     LEARNING_SEARCHES,
     NOISY,
     SEARCHES,
-    noises,
     threshold,
     usual_searches,
 )
@@ -92,21 +91,4 @@ def test_a_study_whose_strategy_learns_is_told_the_noise_of_that(monkeypatch):
     minds = laboratory.faces(laboratory.target("people"))
     assert found.faithful.error.mean == pytest.approx(cosine_distance(elites.final, np.tile(minds, (2, 1))).mean())
     assert found.faithful != threshold(small_laboratory(generations=1), 100).faithful
-    told = noises(laboratory, 100)
-    assert (told.searches, told.faithful, told.noisy) == (found.searches, found.faithful, found.noisy)
     assert (usual_searches("preference"), usual_searches("emogen")) == (LEARNING_SEARCHES, SEARCHES)
-
-
-def test_of_the_result_estimate_the_noise_is_that_of_the_last_mean_faces(monkeypatch):
-    monkeypatch.setattr(learning, "CHAINS", 4)
-    monkeypatch.setattr(learning, "FIRST", 50)
-    monkeypatch.setattr(learners, "IN_STEP", 40)
-    laboratory = small_laboratory(generations=1)
-    laboratory.algorithm, laboratory.result = "preference", "estimate"
-    spec = RunSpec("people", observer=NOISY, algorithm="preference")
-    means = np.concatenate([laboratory.learned(spec, at, count).means for at, count in ((0, 40), (1, 40), (2, 20))])
-    minds = np.tile(laboratory.faces(laboratory.target("people")), (2, 1))
-    found = noises(laboratory, 100).noisy
-    assert found.error.mean == pytest.approx(cosine_distance(means[:, -1], minds).mean())
-    assert found.apart.mean == pytest.approx(cosine_distance(means[:50, -1], means[50:, -1]).mean())
-    assert len(found.settling) == 2, "of the best faces of both generations to the estimate"

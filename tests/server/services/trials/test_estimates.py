@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 
 import numpy as np
 import pytest
+from anyio.to_thread import current_default_thread_limiter
 
 from emogen_core.correctives.pipeline import face_weights
 from emogen_core.search import Choice, preference
@@ -117,6 +119,29 @@ def test_no_transaction_is_open_while_the_search_learns(house, client, study, mo
     monkeypatch.setattr(strategy, "learn", spied)
     Walker(client, study.links[0]).finish()
     assert connections == [0] * (1 + 2 * 3)
+
+
+def test_what_was_learned_is_kept_for_as_many_answers_as_a_server_takes_at_once():
+    async def threads():
+        return int(current_default_thread_limiter().total_tokens)
+
+    assert asyncio.run(threads()) < strategy.REMEMBERED
+
+
+def test_where_more_answers_come_at_once_than_are_kept_each_leads_to_the_same_faces(house, client, study, monkeypatch):
+    learned, learn, rehearse = [], strategy.learn, answers.rehearse
+
+    def crowded(*told):
+        ahead = rehearse(*told)
+        for kept in (strategy._told, strategy._shown):
+            kept.cache_clear()
+        return ahead
+
+    monkeypatch.setattr(strategy, "learn", lambda *told: (learned.append(told), learn(*told))[1])
+    monkeypatch.setattr(answers, "rehearse", crowded)
+    assert Walker(client, study.links[0]).finish()["completion"]["outcome"] == "complete"
+    assert len(learned) == 2 * (1 + 2 * 3), "once ahead, and once more in the write"
+    assert house.replay.study(study.id).difference is None
 
 
 @BOTH

@@ -78,7 +78,8 @@ def test_a_report_is_made_and_kept(house, study, people, analyses):
     with zipfile.ZipFile(io.BytesIO(analyses.archive(study.id))) as files:
         assert files.namelist() == ["about.json", "report.html"]
     with house.database.read() as tx:
-        assert tx.query(AuditEntry).filter_by(action="make report", subject=study.id).one().detail == {"who": "people"}
+        entry = tx.query(AuditEntry).filter_by(action="make report", subject=study.id).one()
+        assert entry.detail == {"who": "people", "result": "elite"}
 
 
 @pytest.mark.parametrize(
@@ -105,7 +106,8 @@ def test_estimates_can_be_asked_for_where_a_search_makes_any(client, house, stud
     analyses.begin(learning.id, "people", None, "estimate")
     analyses.settle()
     assert analyses.make.options == [("--result", "estimate")]
-    assert analyses.of(learning.id).counted == "1 who completed, the search’s own estimates"
+    standing = analyses.of(learning.id)
+    assert (standing.result, standing.counted) == ("estimate", "1 who completed, the search’s own estimates")
     with pytest.raises(InvalidError, match="no such result"):
         analyses.begin(learning.id, "people", None, "odd")
 
