@@ -13,7 +13,7 @@ import numpy as np
 
 from emogen_core.search.initial import initial_population
 from emogen_core.search.params import POPULATION
-from emogen_core.search.preference.learning import Turn, faces_of, learn
+from emogen_core.search.preference.learning import faces_of, learn, turn_of
 from emogen_core.search.preference.proposals import mean_face
 from emogen_core.search.preference.utility import COSINE, space_of, utilities
 from emogen_core.search.state import Choice
@@ -118,7 +118,7 @@ class _Search:
         self.means.append(np.asarray(self.experiment.faces(genes[:1]))[0])
         if len(self.told) <= params.generations:
             faces, choice = self.told[-1]
-            turn, rng = Turn(len(self.told), params.generations), self.stream(PROPOSALS)
+            turn, rng = turn_of([one for _, one in self.told], params.generations), self.stream(PROPOSALS)
             genes[1:, self.active] = faces_of(space, sample, faces[choice.elite - 1], turn, rng)[0]
             self.population = genes[1:]
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from emogen_core.search.operators import scatter
-from emogen_core.search.preference.utility import COSINE, LEAST_SQUARE, VERTEX
+from emogen_core.search.preference.utility import COSINE, LEAST_SQUARE
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -27,6 +27,8 @@ MOST_IN_PART, MOST_SPARSE = 6, 7
 GRID = 2.0**24
 LEAST_STRONGEST = 0.4
 """Of a shown face's strongest gene while faces are judged by composition: fainter ones could hardly be told apart."""
+VISIBLE = 0.15
+"""Least weight of a shown face's strongest gene, however faces are judged: below it, it looks like the neutral one."""
 MOST_ACTIVE, EARLY = 16, 7
 """Genes at work in a face, up to this generation."""
 FAINT = 0.02
@@ -39,9 +41,14 @@ def on_grid(genes: Floats) -> Floats:
 
 
 def mean_face(space: Space, sample: Sample) -> Floats:
-    """Return the (A,) face that on average is nearest to all draws: their mean direction, at their median norm.
+    """Return the (A,) face that stands for all draws.
 
-    Directions and norms are those of the metric that most draws have.
+    While most draws judge by cosine, it is their mean direction, on average the nearest to all of them. Answers tell
+    nothing of its strength then, so that is what the prior says of so many genes at work: ``n`` genes that are U(0, 1)
+    and known but for their strength have a strongest one with the median ``2^(-1/n)``.
+
+    While most judge by vertices, every gene is at its root mean square: the mean would be weaker than any draw
+    wherever draws have different genes at work.
     """
     (face,) = _means(space, sample, np.arange(len(sample.metric))[None])
     return np.asarray(face)
@@ -58,7 +65,7 @@ def pool(sample: Sample, elite: Floats, rng: np.random.Generator) -> tuple[Float
     kinds = {
         "draw": draws,
         "draws-mean": np.concatenate([_averages(draws, 2, PAIRS, rng), _averages(draws, 3, TRIPLES, rng)]),
-        "elite-draw": np.where(rng.random((CROSSED, len(elite))) < 0.5, elite, _some(draws, CROSSED, rng)),
+        "elite-draw": _crossed(elite, rng.random((CROSSED, len(elite))) < 0.5, _some(draws, CROSSED, rng)),
         "part": _parts(_some(draws, PARTS, rng), rng),
         "random": _sparse(len(elite), rng),
     }
@@ -68,15 +75,17 @@ def pool(sample: Sample, elite: Floats, rng: np.random.Generator) -> tuple[Float
 
 def shaped(sample: Sample, genes: Floats, generation: int) -> Floats:
     """Return (B, A) faces as they may be shown: not too many genes at work early, none faint, none nearly invisible."""
-    shown = np.where(genes < FAINT, 0, genes)
+    raised = _raised(genes, LEAST_STRONGEST if composition_leads(sample) else VISIBLE)
+    shown = np.where(raised < FAINT, 0, raised)
     if generation <= EARLY and genes.shape[1] > MOST_ACTIVE:
         order = np.argsort(-shown, axis=1, kind="stable")
         np.put_along_axis(shown, order[:, MOST_ACTIVE:], 0, axis=1)
-    if composition_leads(sample):
-        strongest = shown.max(axis=1, keepdims=True)
-        raised = np.divide(LEAST_STRONGEST, strongest, out=np.ones_like(strongest), where=strongest > 0)
-        shown = shown * np.maximum(raised, 1)
     return on_grid(shown)
+
+
+def visible(face: Floats) -> bool:
+    """Return whether an (A,) face can be told from the neutral one."""
+    return bool(face.max() >= VISIBLE)
 
 
 def means_of_many(space: Space, sample: Sample, count: int, draws: int, rng: np.random.Generator) -> Floats:
@@ -86,12 +95,32 @@ def means_of_many(space: Space, sample: Sample, count: int, draws: int, rng: np.
 
 
 def _means(space: Space, sample: Sample, which: NDArray[np.intp]) -> Floats:
-    """Return the (B, A) mean directions of (B, n) draws, at the median norm of all."""
-    leading = COSINE if composition_leads(sample) else VERTEX
-    norms = np.sqrt(np.maximum(space.squares(np.full(len(sample.metric), leading), sample.genes), LEAST_SQUARE))
+    """Return the (B, A) faces that stand for (B, n) draws each."""
+    if not composition_leads(sample):
+        return on_grid(np.sqrt(np.square(sample.genes)[which].mean(axis=1)))
+    norms = np.sqrt(np.maximum(space.squares(np.full(len(sample.metric), COSINE), sample.genes), LEAST_SQUARE))
     directions = (sample.genes / norms[:, None])[which].sum(axis=1)
-    lengths = np.sqrt(np.maximum(space.squares(np.full(len(which), leading), directions), LEAST_SQUARE))
-    return on_grid(directions * (np.median(norms) / lengths)[:, None])
+    strongest = np.exp2(-1 / _at_work(directions)) / np.maximum(directions.max(axis=1), LEAST_SQUARE)
+    return on_grid(directions * strongest[:, None])
+
+
+def _at_work(faces: Floats) -> Floats:
+    """Return how many genes are at work in (B, A) faces, as if equally strong: 1 over the sum of squared shares."""
+    squares = np.square(faces)
+    return np.asarray(np.square(squares.sum(axis=1)) / np.maximum(np.square(squares).sum(axis=1), LEAST_SQUARE**2))
+
+
+def _raised(genes: Floats, least: float) -> Floats:
+    """Return (B, A) faces, the faint ones made stronger until their strongest gene has a weight; neutral ones stay."""
+    strongest = genes.max(axis=1, keepdims=True)
+    factors = np.divide(least, strongest, out=np.ones_like(strongest), where=strongest > 0)
+    return np.asarray(genes * np.maximum(factors, 1))
+
+
+def _crossed(elite: Floats, inherited: NDArray[np.bool_], draws: Floats) -> Floats:
+    """Return (B, A) faces with every gene from the elite or from a draw; the draw where nothing would be at work."""
+    mixed = np.where(inherited, elite, draws)
+    return np.asarray(np.where(mixed.any(axis=1, keepdims=True), mixed, draws))
 
 
 def _some(draws: Floats, count: int, rng: np.random.Generator) -> Floats:

@@ -16,7 +16,7 @@ import numpy as np
 from emogen_core.errors import InvalidInputError, expected
 from emogen_core.search.initial import initial_population
 from emogen_core.search.params import POPULATION
-from emogen_core.search.preference.learning import Turn, faces_of, learn
+from emogen_core.search.preference.learning import faces_of, learn, turn_of
 from emogen_core.search.preference.proposals import mean_face as mean_of
 from emogen_core.search.preference.sample import from_rows
 from emogen_core.search.preference.utility import space_of
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 NAME = "preference"
-VERSION = 1
+VERSION = 2
 REMEMBERED = 16
 
 
@@ -89,7 +89,8 @@ def _shown(params: SearchParams, state: State, choice: Choice) -> Population:
     elite = np.array(state.previous[choice.elite - 1])[list(params.active)]
     rng = stream(state.seed, state.attempt, state.generation, PROPOSALS)
     sample = from_rows(state.sample)
-    faces, origins = faces_of(_space(params), sample, elite, Turn(state.generation, params.generations), rng)
+    turn = turn_of([answer.choice for answer in state.answers], params.generations)
+    faces, origins = faces_of(_space(params), sample, elite, turn, rng)
     parents = tuple((choice.elite,) if origin in {"elite", "elite-draw"} else () for origin in origins)
     genes = _whole(params, faces)
     genes.flags.writeable = False  # shared by everyone who asks for them
