@@ -43,9 +43,10 @@ def on_grid(genes: Floats) -> Floats:
 def mean_face(space: Space, sample: Sample) -> Floats:
     """Return the (A,) face that stands for all draws.
 
-    While most draws judge by cosine, it is their mean direction, on average the nearest to all of them. Answers tell
-    nothing of its strength then, so that is what the prior says of so many genes at work: ``n`` genes that are U(0, 1)
-    and known but for their strength have a strongest one with the median ``2^(-1/n)``.
+    While most draws judge by cosine, it is their mean direction, on average the nearest to all of them, at the root
+    mean square of their norms. Answers tell nothing of strength then, and a draw is the stronger the more genes are by
+    chance faintly at work; so no face is stronger than the prior says of the genes that count: ``n`` genes that are
+    U(0, 1), known but for their strength, have a strongest one with the median ``2^(-1/n)``.
 
     While most judge by vertices, every gene is at its root mean square: the mean would be weaker than any draw
     wherever draws have different genes at work.
@@ -98,16 +99,18 @@ def _means(space: Space, sample: Sample, which: NDArray[np.intp]) -> Floats:
     """Return the (B, A) faces that stand for (B, n) draws each."""
     if not composition_leads(sample):
         return on_grid(np.sqrt(np.square(sample.genes)[which].mean(axis=1)))
-    norms = np.sqrt(np.maximum(space.squares(np.full(len(sample.metric), COSINE), sample.genes), LEAST_SQUARE))
-    directions = (sample.genes / norms[:, None])[which].sum(axis=1)
-    strongest = np.exp2(-1 / _at_work(directions)) / np.maximum(directions.max(axis=1), LEAST_SQUARE)
-    return on_grid(directions * strongest[:, None])
+    squares = np.maximum(space.squares(np.full(len(sample.metric), COSINE), sample.genes), LEAST_SQUARE)
+    directions = (sample.genes / np.sqrt(squares)[:, None])[which].sum(axis=1)
+    lengths = np.maximum(space.squares(np.full(len(which), COSINE), directions), LEAST_SQUARE)
+    most = np.exp2(-1 / _at_work(directions)) / np.maximum(directions.max(axis=1), LEAST_SQUARE)
+    return on_grid(directions * np.minimum(np.sqrt(squares.mean() / lengths), most)[:, None])
 
 
 def _at_work(faces: Floats) -> Floats:
-    """Return how many genes are at work in (B, A) faces, as if equally strong: 1 over the sum of squared shares."""
+    """Return how many genes count in (B, A) faces: 1 over the sum of squared shares, at least 1."""
     squares = np.square(faces)
-    return np.asarray(np.square(squares.sum(axis=1)) / np.maximum(np.square(squares).sum(axis=1), LEAST_SQUARE**2))
+    fourth = np.maximum(np.square(squares).sum(axis=1), LEAST_SQUARE**2)
+    return np.asarray(np.maximum(np.square(squares.sum(axis=1)) / fourth, 1))
 
 
 def _raised(genes: Floats, least: float) -> Floats:

@@ -69,18 +69,19 @@ def test_by_composition_the_mean_face_has_the_direction_nearest_to_all_draws() -
     assert alike.argmax() == 0
 
 
-@pytest.mark.parametrize("count", [1, 2, 5, 12])
-def test_by_composition_the_mean_face_is_as_strong_as_so_many_genes_are_beforehand(count: int) -> None:
+@pytest.mark.parametrize("count", [1, 2, 5, 11])
+def test_by_composition_the_mean_face_is_no_stronger_than_so_many_genes_are_beforehand(count: int) -> None:
     genes = np.zeros((6, GENES))
-    genes[:, :count] = np.linspace(0.1, 0.9, 6)[:, None]
-    sample = Sample(genes, np.zeros(6), np.full(6, COSINE))
-    prior_strongest = np.sort(np.random.default_rng(0).random(40_000) ** (1 / count))[20_000]
-    mean = mean_face(space(), sample)
-    assert mean[:count] == pytest.approx(prior_strongest, abs=0.01)
+    genes[:, :count] = 0.97
+    strong = Sample(genes, np.zeros(6), np.full(6, COSINE))
+    beforehand = np.median(np.random.default_rng(0).random(40_000) ** (1 / count))
+    mean = mean_face(space(), strong)
+    assert mean[:count] == pytest.approx(beforehand, abs=0.01)
     assert not mean[count:].any()
-    faint = sample.at(np.arange(6))
-    faint.genes[::2, -1] += 0.01
-    assert mean_face(space(), faint)[0] == pytest.approx(mean[0], abs=0.01), "a faint gene more changes little"
+    strong.genes[::2, -1] += 0.01
+    assert mean_face(space(), strong)[0] == pytest.approx(mean[0], abs=0.01), "a faint gene more changes little"
+    np.multiply(strong.genes, 0.4, out=strong.genes)
+    assert mean_face(space(), strong)[0] == pytest.approx(0.97 * 0.4, abs=1e-3), "weaker draws count as they are"
 
 
 def test_by_vertices_the_mean_face_is_as_strong_as_the_draws() -> None:
@@ -110,7 +111,7 @@ def test_faces_of_many_draws_come_nearer_to_the_mean_face() -> None:
         np.linalg.norm(means_of_many(space(), sample, 20, n, np.random.default_rng(0)) - mean, axis=1).mean()
         for n in (2, 12, 48)
     ]
-    assert apart[0] > 2 * apart[1] > 4 * apart[2]
+    assert apart[0] > 1.5 * apart[1] > 3 * apart[2]
     assert apart[2] < 1e-6
 
 

@@ -125,8 +125,8 @@ def test_its_portrait_can_be_drawn(house, walker):
 
 
 def test_who_took_part_says_which_search(house, study, walker):
-    assert {row["algorithm"] for row in lines(house, study.id, "participations")} == {"preference/1"}
-    assert algorithm_of(small_study(**LEARNING)) == "preference/1"
+    assert {row["algorithm"] for row in lines(house, study.id, "participations")} == {"preference/2"}
+    assert algorithm_of(small_study(**LEARNING)) == "preference/2"
 
 
 def test_faces_come_from_where_the_export_says(house, study, walker):
