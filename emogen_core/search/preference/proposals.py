@@ -107,10 +107,9 @@ def _means(space: Space, sample: Sample, which: NDArray[np.intp]) -> Floats:
 
 
 def _at_work(faces: Floats) -> Floats:
-    """Return how many genes count in (B, A) faces: 1 over the sum of squared shares, at least 1."""
-    squares = np.square(faces)
-    fourth = np.maximum(np.square(squares).sum(axis=1), LEAST_SQUARE**2)
-    return np.asarray(np.maximum(np.square(squares.sum(axis=1)) / fourth, 1))
+    """Return how many genes count in (B, A) faces: 1 over the sum of squared shares of the weights, at least 1."""
+    squares = np.maximum(np.square(faces).sum(axis=1), LEAST_SQUARE)
+    return np.asarray(np.maximum(np.square(faces.sum(axis=1)) / squares, 1))
 
 
 def _raised(genes: Floats, least: float) -> Floats:
