@@ -27,12 +27,15 @@ MOST_IN_PART, MOST_SPARSE = 6, 7
 GRID = 2.0**24
 LEAST_STRONGEST = 0.4
 """Of a shown face's strongest gene while faces are judged by composition: fainter ones could hardly be told apart."""
-VISIBLE = 0.15
-"""Least weight of a shown face's strongest gene, however faces are judged: below it, it looks like the neutral one."""
+VISIBLE = 5 / 32
+"""Least weight of a shown face's strongest gene, however faces are judged: below it, it looks like the neutral one. It
+is on the grid, so that a face that was raised to it is not below it."""
 MOST_ACTIVE, EARLY = 16, 7
 """Genes at work in a face, up to this generation."""
 FAINT = 0.02
 """Weights below it are not shown."""
+STRONGEST = 0.1
+"""Share of the genes that count in a face whose weights say how strong it is."""
 
 
 def on_grid(genes: Floats) -> Floats:
@@ -43,10 +46,8 @@ def on_grid(genes: Floats) -> Floats:
 def mean_face(space: Space, sample: Sample) -> Floats:
     """Return the (A,) face that stands for all draws.
 
-    While most draws judge by cosine, it is their mean direction, on average the nearest to all of them, at the root
-    mean square of their norms. Answers tell nothing of strength then, and a draw is the stronger the more genes are by
-    chance faintly at work; so no face is stronger than the prior says of the genes that count: ``n`` genes that are
-    U(0, 1), known but for their strength, have a strongest one with the median ``2^(-1/n)``.
+    While most draws judge by cosine, it is their mean direction, on average the nearest to all of them. Answers tell
+    nothing of strength then, so it is what the prior says of so many genes, see `_strength`.
 
     While most judge by vertices, every gene is at its root mean square: the mean would be weaker than any draw
     wherever draws have different genes at work.
@@ -101,15 +102,21 @@ def _means(space: Space, sample: Sample, which: NDArray[np.intp]) -> Floats:
         return on_grid(np.sqrt(np.square(sample.genes)[which].mean(axis=1)))
     squares = np.maximum(space.squares(np.full(len(sample.metric), COSINE), sample.genes), LEAST_SQUARE)
     directions = (sample.genes / np.sqrt(squares)[:, None])[which].sum(axis=1)
-    lengths = np.maximum(space.squares(np.full(len(which), COSINE), directions), LEAST_SQUARE)
-    most = np.exp2(-1 / _at_work(directions)) / np.maximum(directions.max(axis=1), LEAST_SQUARE)
-    return on_grid(directions * np.minimum(np.sqrt(squares.mean() / lengths), most)[:, None])
+    return on_grid(directions * _strength(directions)[:, None])
 
 
-def _at_work(faces: Floats) -> Floats:
-    """Return how many genes count in (B, A) faces: 1 over the sum of squared shares of the weights, at least 1."""
-    squares = np.maximum(np.square(faces).sum(axis=1), LEAST_SQUARE)
-    return np.asarray(np.maximum(np.square(faces.sum(axis=1)) / squares, 1))
+def _strength(faces: Floats) -> Floats:
+    """Return the (B,) factors that make faces as strong as their prior says of the genes that count in them.
+
+    ``n`` genes count, 1 over the sum of squared shares of the weights. Of ``n`` weights that are U(0, 1) the strongest
+    ``k`` have the mean ``1 - (k + 1) / (2 (n + 1))``; it is given to the strongest tenth, since they are known best.
+    """
+    totals = np.maximum(np.square(faces).sum(axis=1), LEAST_SQUARE)
+    counting = np.maximum(np.rint(np.square(faces.sum(axis=1)) / totals), 1)
+    strongest = np.ceil(counting * STRONGEST)
+    taken = np.arange(faces.shape[1]) < strongest[:, None]
+    sums = np.where(taken, -np.sort(-faces, axis=1), 0).sum(axis=1)
+    return np.asarray((strongest - strongest * (strongest + 1) / (2 * (counting + 1))) / np.maximum(sums, LEAST_SQUARE))
 
 
 def _raised(genes: Floats, least: float) -> Floats:

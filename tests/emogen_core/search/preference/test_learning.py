@@ -45,7 +45,7 @@ def test_ten_faces_that_can_all_be_seen(belief: tuple[Sample, np.ndarray], gener
     sample, elite = belief
     faces, origins = faces_of(wide(), sample, elite, Turn(generation, LAST, best_only), np.random.default_rng(1))
     assert faces.shape == (10, GENES)
-    assert faces.max(axis=1).min() >= VISIBLE - 1 / GRID
+    assert faces.max(axis=1).min() >= VISIBLE
     if elite.max() >= VISIBLE:
         assert origins[0] == "elite"
         assert np.array_equal(faces[0], elite)

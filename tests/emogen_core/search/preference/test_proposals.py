@@ -24,6 +24,7 @@ from emogen_core.search.preference.proposals import (
     means_of_many,
     pool,
     shaped,
+    visible,
 )
 from emogen_core.search.preference.sample import Sample, from_rows
 from emogen_core.search.preference.utility import COSINE, VERTEX
@@ -70,18 +71,28 @@ def test_by_composition_the_mean_face_has_the_direction_nearest_to_all_draws() -
 
 
 @pytest.mark.parametrize("count", [1, 2, 5, 11])
-def test_by_composition_the_mean_face_is_no_stronger_than_so_many_genes_are_beforehand(count: int) -> None:
+@pytest.mark.parametrize("weight", [0.97, 0.2])
+def test_by_composition_the_mean_face_is_as_strong_as_so_many_genes_are_beforehand(count: int, weight: float) -> None:
     genes = np.zeros((6, GENES))
-    genes[:, :count] = 0.97
-    strong = Sample(genes, np.zeros(6), np.full(6, COSINE))
-    beforehand = np.median(np.random.default_rng(0).random(40_000) ** (1 / count))
-    mean = mean_face(space(), strong)
+    genes[:, :count] = weight
+    sample = Sample(genes, np.zeros(6), np.full(6, COSINE))
+    beforehand = np.sort(np.random.default_rng(0).random((40_000, count)), axis=1)[
+        :, -int(np.ceil(count / 10)) :
+    ].mean()
+    mean = mean_face(space(), sample)
     assert mean[:count] == pytest.approx(beforehand, abs=0.01)
     assert not mean[count:].any()
-    strong.genes[::2, -1] += 0.01
-    assert mean_face(space(), strong)[0] == pytest.approx(mean[0], abs=0.01), "a faint gene more changes little"
-    np.multiply(strong.genes, 0.4, out=strong.genes)
-    assert mean_face(space(), strong)[0] == pytest.approx(0.97 * 0.4, abs=1e-3), "weaker draws count as they are"
+    sample.genes[::2, -1] += 0.01 * weight
+    assert mean_face(space(), sample)[0] == pytest.approx(mean[0], abs=0.01), "a faint gene more changes little"
+
+
+def test_by_composition_a_dense_face_keeps_its_direction_but_for_its_strongest_genes() -> None:
+    one = np.linspace(0.1, 0.9, GENES)
+    mean = mean_face(space(), Sample(np.tile(one, (4, 1)), np.zeros(4), np.full(4, COSINE)))
+    assert mean.max() < 1
+    full = mean == mean.max()
+    factors = mean[~full] / one[~full]
+    assert factors == pytest.approx(factors[0], rel=1e-5)
 
 
 def test_by_vertices_the_mean_face_is_as_strong_as_the_draws() -> None:
@@ -130,6 +141,7 @@ def test_shown_faces_are_plausible(seed: int, generation: int, metric: int) -> N
         assert (np.sort(genes, axis=1)[:, -MOST_ACTIVE] <= np.where(made > 0, genes, 1).min(axis=1) + 1e-12)[1:].all()
     least = LEAST_STRONGEST if metric == COSINE else VISIBLE
     assert (made[1:].max(axis=1) >= least - 1 / GRID).all()
+    assert all(visible(face) for face in made[1:]), "a face that was raised is not left out as elite"
     strong = genes.max(axis=1) >= least
     assert made[strong].max(axis=1) == pytest.approx(genes[strong].max(axis=1), abs=1 / GRID), "others stay as they are"
 
