@@ -1,6 +1,7 @@
 """A foreign head made into a rig and its look: the order of the steps, and nothing else.
 
-read -> genes -> eyes that turn -> the bundled head laid over it -> parts of the flesh -> heads -> correctives -> look
+read -> genes -> eyes that turn -> the bundled head laid over it -> parts of the flesh -> heads -> lids that close
+-> correctives -> mouths that stay shut -> look
 """
 
 from __future__ import annotations
@@ -16,7 +17,8 @@ from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.face.rig import Rig
 from emogen_core.rendering.plain import plain_look
 from emogen_core.rendering.setup import bundled_look
-from emogen_core.rigs.foreign.mirror import mirrored
+from emogen_core.rigs.foreign.mirror import mirrored, permutation
+from emogen_core.rigs.foreign.names import meaning
 from emogen_core.rigs.foreign.read import read_head
 from emogen_core.rigs.imported.combined import with_combinations
 from emogen_core.rigs.imported.dressed import Dresser
@@ -25,10 +27,12 @@ from emogen_core.rigs.imported.front import Front
 from emogen_core.rigs.imported.gaze import SIDES, Eyeball, find_eyeball, with_turning_eyes
 from emogen_core.rigs.imported.genes import GeneShapes, make_genes
 from emogen_core.rigs.imported.heads import FIRST, mixed_head, random_weights
+from emogen_core.rigs.imported.lids import with_fitted_lids
 from emogen_core.rigs.imported.match import islands, islands_of
-from emogen_core.rigs.imported.mouth import drop_of, freed, with_collision_correctives
+from emogen_core.rigs.imported.mouth import drop_of, freed, lower_side, with_collision_correctives
 from emogen_core.rigs.imported.overlay import LEAST_SHARED, Skin, laid_over
 from emogen_core.rigs.imported.parts import FLESH, Parts, pieces, sort_parts
+from emogen_core.rigs.imported.shut import with_shut_mouths
 from emogen_core.rigs.rest import BROWS
 
 if TYPE_CHECKING:
@@ -45,8 +49,8 @@ if TYPE_CHECKING:
 
 # Part of the flesh -> in how many pieces it is.
 _HOLLOWS = {"mouth": 1, "sockets": 2}
-# Millimetres within which vertices are mirror images.
-_SYMMETRIC = 0.05
+# Millimetres within which vertices are mirror images. Where it matters, at lips and teeth, collisions look closer.
+_SYMMETRIC = 0.3
 
 
 @dataclass(frozen=True)
@@ -111,10 +115,12 @@ def import_head(path: Path, wishes: Wishes, tell: Callable[[str], object] = str)
     rig = _bare(head, replace(made, shapes=shapes), parts, wishes)
     if warped:
         rig = replace(rig, regions={BROWS: _brows(template, warped, rig)})
+    rig = with_fitted_lids(rig, eyes, head.findings)
     if wishes.combinations:
         tell("Correctives are derived, which takes some minutes.")
         rig = with_combinations(rig, made.correctives, eyes, head.findings)
     rig = freed(with_collision_correctives(rig, drop, head.findings), drop, head.findings)
+    rig = with_shut_mouths(rig, lower_side(drop), head.findings)
     if not warped:
         return Imported(rig, plain_look(rig), head.findings, head.model.identity_modes)
     flesh = Skin(front.vertices, front.skin, drop)
@@ -221,10 +227,10 @@ def _neutrals(model: HeadModel, parts: Parts, wishes: Wishes, findings: Findings
 
 def _mirror(model: HeadModel, findings: Findings) -> NDArray[np.int32]:
     """Return which vertex mirrors which, or none where one of them has no mirror image."""
-    found = mirrored(model.vertices)
-    rows = np.arange(len(model.vertices))
-    if found.gap.max() < _SYMMETRIC and (found.partner[found.partner] == rows).all():
+    jaw = next((moved for name, moved in model.expressions.items() if meaning(name).standard == "jawOpen"), None)
+    found = permutation(model.vertices, mirrored(model.vertices, jaw), _SYMMETRIC)
+    if found is not None:
         findings.found.append("The head is its own mirror image.")
-        return found.partner.astype(np.int32)
+        return found.astype(np.int32)
     findings.missing.append("The head is not its own mirror image: symmetric faces may be corrected a little unevenly.")
     return np.zeros(0, np.int32)
