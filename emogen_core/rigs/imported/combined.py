@@ -56,4 +56,3 @@ def with_combinations(
     derived = np.stack([lid_corrective(topology, deriver, pair, head, genes) for pair in pairs]).astype(np.float32)
     combinations = tuple(pair.combination for pair in pairs)
     return replace(rig, combinations=combinations, offsets=np.concatenate([rig.offsets, derived]))
-

@@ -132,6 +132,8 @@ def _close_open_jaw(mouth: Mouth, shapes: dict[str, Mesh], neutral: Mesh, findin
     members = {gene.name: gene.members for gene in mouth.rig.genes if gene.name in _CLOSE}
     mesh = neutral + shapes[name] + sum(gene_offsets(shapes, members).values(), np.zeros_like(neutral))
     if mouth.is_open(mesh):
-        findings.missing.append("mouthClose: the lips stay apart when the jaw is open; its shape closes them too little.")
+        findings.missing.append(
+            "mouthClose: the lips stay apart when the jaw is open; its shape closes them too little."
+        )
         return
     shapes[name] = shapes[name] + mouth.sealed(mesh) - mesh

@@ -40,5 +40,7 @@ def test_a_head_that_is_not_symmetric_there_keeps_its_half():
 
 
 def test_names_that_nobody_knows_are_no_halves():
-    odd = replace(head, expressions={"wiggle_L": head.expressions["mouthSmile_L"], "jawOpen": head.expressions["jawOpen"]})
+    odd = replace(
+        head, expressions={"wiggle_L": head.expressions["mouthSmile_L"], "jawOpen": head.expressions["jawOpen"]}
+    )
     assert with_halves(odd, Findings()) is odd
