@@ -28,7 +28,7 @@ MESH = 14528
 
 @dataclass(frozen=True, slots=True)
 class FeaturePoint:
-    """One point: its name in the standard, what it is, and its vertex on the bundled mesh."""
+    """One point: its name in the standard, what it is, and its vertex on a mesh."""
 
     name: str
     meaning: str
@@ -78,13 +78,18 @@ PAIRS = tuple((left, right) for left, right, _, _ in _PAIRS)
 """Names of mirror images: the left point, the right one."""
 
 
-def feature_points(rig: Rig) -> tuple[FeaturePoint, ...]:
-    """Return the 56 points in the order of the standard, with their vertices on a rig's mesh.
+def is_bundled_mesh(rig: Rig) -> bool:
+    """Return whether a rig is of the mesh on which the points are known by number."""
+    return len(rig.mirror) == MESH
+
+
+def bundled_points(rig: Rig) -> tuple[FeaturePoint, ...]:
+    """Return the 56 points in the order of the standard, with their vertices on the bundled mesh.
 
     Raises:
-        InvalidInputError: the rig has another mesh than the bundled one.
+        InvalidInputError: the rig has another mesh (`emogen_core.rigs.landmark_head` finds them there).
     """
-    if len(rig.mirror) != MESH:
+    if not is_bundled_mesh(rig):
         raise InvalidInputError(f"feature points: {expected(f'the bundled mesh of {MESH} vertices', len(rig.mirror))}")
     points = [FeaturePoint(*row) for row in _MIDDLE]
     for left, right, meaning, vertex in _PAIRS:

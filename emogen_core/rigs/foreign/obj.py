@@ -86,6 +86,27 @@ def parse_obj(data: bytes, name: str, like: ObjMesh | None = None) -> ObjMesh:
     return ObjMesh(vertices, uv, _polygons(lines, kinds, name, (len(vertices), len(uv))), _tail(data))
 
 
+def check_alike(mesh: ObjMesh, name: str, neutral: ObjMesh, rest: str) -> None:
+    """Refuse a mesh that is not its neutral's, vertex by vertex and face by face.
+
+    Args:
+        mesh: of one expression.
+        name: what messages call it.
+        neutral: of the head at rest.
+        rest: what messages call that.
+
+    Raises:
+        InvalidInputError: other vertices or faces.
+    """
+    if len(mesh.vertices) != len(neutral.vertices):
+        wanted = f"{len(neutral.vertices)} vertices as in {rest}"
+        raise InvalidInputError(f"{name}: {expected(wanted, len(mesh.vertices))}; export it with the same order")
+    own, whole = mesh.polygons, neutral.polygons
+    if not (np.array_equal(own.sizes, whole.sizes) and np.array_equal(own.corners, whole.corners)):
+        wanted, got = (f"the {len(whole.sizes)} faces of {rest}", f"{len(own.sizes)} others")
+        raise InvalidInputError(f"{name}: {expected(wanted, got)}; export it without changing the vertex order")
+
+
 def triangulated(polygons: Polygons) -> tuple[NDArray[np.int32], NDArray[np.int64], dict[str, tuple[int, int]]]:
     """Return triangles sorted by part, as fans around each polygon's first corner.
 

@@ -15,7 +15,7 @@ import numpy as np
 from emogen_core.errors import InvalidInputError, expected
 from emogen_core.rigs.foreign.files import files_of, read_limited
 from emogen_core.rigs.foreign.model import HeadModel, counted
-from emogen_core.rigs.foreign.obj import parse_obj, triangulated
+from emogen_core.rigs.foreign.obj import check_alike, parse_obj, triangulated
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -90,13 +90,7 @@ def _neutral(names: tuple[str, ...], asked: str, findings: Findings) -> str:
 
 def _offsets(path: Path, neutral: ObjMesh, rest: str) -> NDArray[np.float32]:
     mesh = parse_obj(read_limited(path), path.name, like=neutral)
-    if len(mesh.vertices) != len(neutral.vertices):
-        wanted = f"{len(neutral.vertices)} vertices as in {rest}"
-        raise InvalidInputError(f"{path.name}: {expected(wanted, len(mesh.vertices))}; export it with the same order")
-    own, whole = mesh.polygons, neutral.polygons
-    if not (np.array_equal(own.sizes, whole.sizes) and np.array_equal(own.corners, whole.corners)):
-        wanted, got = (f"the {len(whole.sizes)} faces of {rest}", f"{len(own.sizes)} others")
-        raise InvalidInputError(f"{path.name}: {expected(wanted, got)}; export it without changing the vertex order")
+    check_alike(mesh, path.name, neutral, rest)
     offsets = mesh.vertices - neutral.vertices
     offsets[np.abs(offsets) < _ROUNDING * np.abs(neutral.vertices).max()] = 0
     return offsets.astype(np.float32)

@@ -25,9 +25,10 @@ from emogen_core.rigs.imported.front import Front
 from emogen_core.rigs.imported.gaze import SIDES, Eyeball, find_eyeball, with_turning_eyes
 from emogen_core.rigs.imported.genes import GeneShapes, make_genes
 from emogen_core.rigs.imported.heads import FIRST, mixed_head, random_weights
+from emogen_core.rigs.imported.lying import EYES, bundled_on, skin_of
 from emogen_core.rigs.imported.match import islands, islands_of
 from emogen_core.rigs.imported.mouth import drop_of, freed, with_collision_correctives
-from emogen_core.rigs.imported.overlay import LEAST_SHARED, Skin, laid_over
+from emogen_core.rigs.imported.overlay import Skin
 from emogen_core.rigs.imported.parts import FLESH, Parts, pieces, sort_parts
 from emogen_core.rigs.rest import BROWS
 
@@ -103,8 +104,8 @@ def import_head(path: Path, wishes: Wishes, tell: Callable[[str], object] = str)
     parts = _parts(head)
     eyes = _eyes(head.model, parts)
     drop = drop_of(made.shapes, parts.vertices(*FLESH), len(head.model.vertices))
-    front = Front(head.model.vertices.astype(np.float64), parts.of(*FLESH), parts.of("eye_left", "eye_right"), drop)
-    warped = _overlay(template, wishes.wears, front, head.findings)
+    front = Front(head.model.vertices.astype(np.float64), parts.of(*FLESH), parts.of(*EYES), drop)
+    warped = bundled_on(template, wishes.wears, front, head.findings)
     if warped:
         parts = _classified(parts, look, front, warped)
     shapes = with_turning_eyes(head.model.vertices, made.shapes, eyes, head.findings)
@@ -117,8 +118,7 @@ def import_head(path: Path, wishes: Wishes, tell: Callable[[str], object] = str)
     rig = freed(with_collision_correctives(rig, drop, head.findings), drop, head.findings)
     if not warped:
         return Imported(rig, plain_look(rig), head.findings, head.model.identity_modes)
-    flesh = Skin(front.vertices, front.skin, drop)
-    dresser = Dresser(rig, look, template, warped, flesh, eyes)
+    dresser = Dresser(rig, look, template, warped, skin_of(front), eyes)
     return Imported(rig, dresser.dressed(wishes.wears, front.edges()), head.findings, head.model.identity_modes)
 
 
@@ -129,28 +129,6 @@ def _parts(head: ReadHead) -> Parts:
 def _eyes(model: HeadModel, parts: Parts) -> dict[str, Eyeball]:
     rows = {side: parts.vertices(f"eye_{side}") for side in SIDES}
     return {side: find_eyeball(model.vertices, own) for side, own in rows.items() if len(own) > 8}
-
-
-def _overlay(template: Rig, wears: str, front: Front, findings: Findings) -> Skin | None:
-    """Return the bundled head's flesh, lying on the foreign head's; none where too little of a face is found."""
-    first, last = template.parts["skin"][0], template.parts["sockets"][1]
-    flesh = template.triangles[first:last]
-    offsets = {"jawOpen": template.offsets[template.shape_names.index("jawOpen")]}
-    neutral = template.neutral(wears).astype(np.float64)
-    drop = drop_of(offsets, np.unique(flesh).astype(np.intp), len(neutral))
-    balls = [template.triangles[slice(*template.parts[f"eye_{side}"])] for side in SIDES]
-    own = Front(neutral, flesh, np.concatenate(balls), drop)
-    target = Skin(front.vertices, front.skin, front.drop)
-    places, goals = own.landmarks(), front.landmarks()
-    shared = len(set(places) & set(goals))
-    if shared < LEAST_SHARED:
-        findings.missing.append(
-            f"Only {shared} of {len(places)} places of a face were found, for want of eyes and jaw: its look is in flat"
-            " colours, and nothing is known of its mouth."
-        )
-        return None
-    findings.guessed.append(f"The bundled head was laid over it by {shared} of {len(places)} places of a face.")
-    return laid_over(Skin(neutral, flesh, drop), target, places, goals)
 
 
 def _brows(template: Rig, warped: Skin, rig: Rig) -> NDArray[np.int32]:
@@ -201,7 +179,7 @@ def _bare(head: ReadHead, made: GeneShapes, parts: Parts, wishes: Wishes) -> Rig
 
 
 def _neutrals(model: HeadModel, parts: Parts, wishes: Wishes, findings: Findings) -> dict[str, NDArray[np.float32]]:
-    eyes = parts.vertices("eye_left", "eye_right")
+    eyes = parts.vertices(*EYES)
     generator = np.random.default_rng(wishes.seed)
     chosen = dict(wishes.heads)
     if wishes.random and not model.identity_modes:

@@ -8,12 +8,12 @@ import pytest
 
 from emogen_core.errors import InvalidInputError
 from emogen_core.face.bundled import load_bundled_rig
-from emogen_core.landmarks.points import NAMES, PAIRS, feature_points, point_rows
+from emogen_core.landmarks.points import NAMES, PAIRS, bundled_points, point_rows
 from emogen_core.rendering.camera import chin_point
 from tests.rig_factory import full_rig, small_rig
 
 RIG = load_bundled_rig()
-POINTS = {point.name: point for point in feature_points(RIG)}
+POINTS = {point.name: point for point in bundled_points(RIG)}
 
 
 def test_there_are_56_in_the_order_of_the_standard():
@@ -86,7 +86,7 @@ def test_names_become_rows():
 @pytest.mark.parametrize("rig", [small_rig(), full_rig()])
 def test_another_mesh_is_refused(rig):
     with pytest.raises(InvalidInputError, match="the bundled mesh of 14528 vertices"):
-        feature_points(rig)
+        bundled_points(rig)
 
 
 def test_the_documentation_lists_every_point():
