@@ -42,12 +42,13 @@ def test_points_come_near_to_where_they_are(who):
     away = {p.name: np.linalg.norm(neutral[p.vertex] - neutral[place[KNOWN[p.name]]]) for p in found}
     # Along a smooth surface places slide, cheeks and hairline most.
     assert np.median([*away.values()]) < 2, away
-    assert max(away.values()) < 15, away
+    assert max(away.values()) < 12, away
     assert max(away["3.5"], away["3.6"]) < 1
     # What belongs to the lower lip goes with the jaw, and the upper lip stays.
     moved = driven_head(rig, who, found).offsets_at_points[rig.shape_names.index("jawOpen"), :, 1]
     drop = dict(zip(NAMES, -moved, strict=True))
-    assert min(drop[name] for name in ("2.3", "2.8", "2.9", "8.2")) > 3 * max(drop[name] for name in ("2.2", "8.1"))
+    assert min(drop[name] for name in ("2.3", "2.8", "2.9", "8.2")) > 15
+    assert max(drop[name] for name in ("2.2", "2.6", "2.7", "8.1")) < 5
 
 
 def test_too_little_of_a_face_is_refused():
