@@ -59,7 +59,7 @@ def read_mesh(path: Path, neutral: tuple[Path, ObjMesh] | None = None) -> ObjMes
     bad = np.flatnonzero(~np.isfinite(mesh.vertices).all(1))
     if len(bad):
         got = f"{mesh.vertices[bad[0]].tolist()} at vertex {bad[0]}, and {len(bad) - 1} more such"
-        raise InvalidInputError(f"{path.name}: {expected('finite coordinates', got)}; export it again")
+        raise InvalidInputError(f"{path.name}: expected finite coordinates, got {got}; export it again")
     if neutral:
         check_alike(mesh, path.name, neutral[1], neutral[0].name)
     return mesh
