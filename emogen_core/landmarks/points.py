@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from emogen_core.errors import InvalidInputError, expected
+from emogen_core.face.bundled import load_bundled_rig
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,9 +22,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from emogen_core.face.rig import Rig
-
-MESH = 14528
-"""Vertices of the mesh on which the points are known."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +78,7 @@ PAIRS = tuple((left, right) for left, right, _, _ in _PAIRS)
 
 def is_bundled_mesh(rig: Rig) -> bool:
     """Return whether a rig is of the mesh on which the points are known by number."""
-    return len(rig.mirror) == MESH
+    return np.array_equal(rig.triangles, load_bundled_rig().triangles)
 
 
 def bundled_points(rig: Rig) -> tuple[FeaturePoint, ...]:
@@ -90,7 +88,8 @@ def bundled_points(rig: Rig) -> tuple[FeaturePoint, ...]:
         InvalidInputError: the rig has another mesh (`emogen_core.rigs.landmark_head` finds them there).
     """
     if not is_bundled_mesh(rig):
-        raise InvalidInputError(f"feature points: {expected(f'the bundled mesh of {MESH} vertices', len(rig.mirror))}")
+        got = f"{len(rig.triangles)} other triangles"
+        raise InvalidInputError(f"feature points: {expected('the bundled mesh', got)}")
     points = [FeaturePoint(*row) for row in _MIDDLE]
     for left, right, meaning, vertex in _PAIRS:
         points.append(FeaturePoint(left, meaning.format("left", "right"), vertex))
