@@ -56,16 +56,18 @@ class Wire:
         if ANSWER not in data:
             return False
         with self._lock:
-            lose, hang = self.lose > 0, self.hang > 0
+            hang = self.hang > 0
+            lose = self.lose > 0 and not hang
             self.lose -= lose
             self.hang -= hang
-        if hang:
-            return True
+        if not hang and not lose:
+            return False
+        # A body may come after its head; alone, the server would take it for a request that is none, and answer.
+        request = _whole(data, client)
         if lose:
-            self.lost.append(self._alone(_whole(data, client)))
+            self.lost.append(self._alone(request))
             _reset(client)
-            return True
-        return False
+        return True
 
     def _alone(self, data):
         """Send a request over a connection of its own and return the status of its reply, which nobody gets."""
