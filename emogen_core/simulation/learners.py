@@ -150,6 +150,10 @@ def _played(experiment: Experiment, seed: Seed, numbers: Sequence[int]) -> Learn
         samples = learn(space, told, samples, [one.stream(BELIEFS) for one in searches])
         for one, sample in zip(searches, samples, strict=True):
             one.believe(space, sample)
+    return _learned(searches)
+
+
+def _learned(searches: Sequence[_Search]) -> Learned:
     weights, means, shown, doubt = (
         np.array([getattr(one, name) for one in searches], np.float32) for name in ("elites", "means", "shown", "doubt")
     )

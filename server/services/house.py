@@ -156,8 +156,6 @@ def build_house(
     drawers = ModelDrawers(drawer, models, settings.renderer, drawer_of)
     portraits = _portraits(settings, drawers, database, wardrobe)
     journal = Journal(database, rig, portraits, wardrobe, host_list(settings.redirect_hosts))
-    note = ImportNote(settings.data_dir / "face-models" / "import.json", MOST_SECONDS)
-    imports = Imports(models, HeadImporter(), unpacked, note)
     previews = Previews(journal)
     noise = NoiseOfSearch(wardrobe.rig_of, settings.data_dir / "noise")
     making, tokens, joining = Studies(journal), Tokens(database), Joining(journal, settings.joins_per_minute)
@@ -177,7 +175,7 @@ def build_house(
         recruiting=Recruiting(database, settings.address),
         heads=heads,
         models=models,
-        imports=imports,
+        imports=_imports(settings, models),
         editor=Editor(life, heads),
         making=Making(making, life),
         accounts=accounts,
@@ -202,6 +200,11 @@ def build_house(
         simulations=Simulations(journal, tokens),
         housekeeping=Housekeeping(journal, (previews.sweep, accounts.sweep, joining.sweep)),
     )
+
+
+def _imports(settings: Settings, models: FaceModels) -> Imports:
+    note = ImportNote(settings.data_dir / "face-models" / "import.json", MOST_SECONDS)
+    return Imports(models, HeadImporter(), unpacked, note)
 
 
 def _portraits(settings: Settings, drawer: PortraitDrawer, database: Database, wardrobe: Wardrobe) -> Portraits:

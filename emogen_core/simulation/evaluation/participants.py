@@ -43,6 +43,7 @@ def participants(
             raise InvalidInputError(f"{name}: {expected('a number between 0 and 1', value)}")
 
     def enough(people: int) -> bool:
+        """Whether so many find the difference."""
         return power_of(dispersion, share, distance, people, alpha) >= power
 
     # From below: far beyond what is enough the distribution function fails.

@@ -237,12 +237,8 @@ class Wardrobe:
             InvalidError: it cannot be fitted.
             UnavailableError: others are being fitted for longer than anybody should wait.
         """
-        with _turn(self._needle, self._patience):
-            wanted()
-            try:
-                return self._tailor.fit(identity, moving=moving)
-            except EmogenError as error:
-                raise refusal("identity", error) from error
+        with self._alone(wanted):
+            return self._tailor.fit(identity, moving=moving)
 
     def anew(self, document: Mapping[str, Any], wanted: Callable[[], None] = lambda: None) -> tuple[WornHead, Rig]:
         """Return the head of a signed document as this process makes it now, kept or not, and a rig that wears it.
@@ -255,12 +251,8 @@ class Wardrobe:
             InvalidError: it cannot be made.
             UnavailableError: others are being fitted for longer than anybody should wait.
         """
-        with _turn(self._needle, self._patience):
-            wanted()
-            try:
-                head = self._made(document)
-            except EmogenError as error:
-                raise refusal("identity", error) from error
+        with self._alone(wanted):
+            head = self._made(document)
         return head, worn_rig(self._base(head.name), head)
 
     def close(self) -> None:
@@ -288,6 +280,16 @@ class Wardrobe:
         with self._lock:
             for old in [one for one in self._pegs.values() if one.head is not None][: -self._limit]:
                 old.rig = old.head = None
+
+    @contextmanager
+    def _alone(self, wanted: Callable[[], None]) -> Iterator[None]:
+        """Wait for the turn of a head that is made for somebody who looks at it, and say what is wrong with it."""
+        with _turn(self._needle, self._patience):
+            wanted()
+            try:
+                yield
+            except EmogenError as error:
+                raise refusal("identity", error) from error
 
     def _fitted(self, peg: _Peg) -> WornHead:
         """Return the head as it was fitted once, here or wherever the data comes from; else fit and keep it."""

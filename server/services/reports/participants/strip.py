@@ -95,9 +95,7 @@ class Strip:
 def strip_of(tx: Tx, trial: Trial) -> Strip:
     """Return the strip of an evolve trial."""
     recorded = roster.generations(tx, trial.id)
-    attempts: dict[int, list[Recorded]] = {}
-    for one in recorded:
-        attempts.setdefault(one[0].attempt, []).append(one)
+    attempts = _by_attempt(recorded)
     last = max(attempts, default=0)
     distances = _distances(attempts.get(last, [])) if trial.final_face_id else {}
     faces = {face.id: face for _, shown, _, _ in recorded for face in shown}
@@ -111,6 +109,13 @@ def strip_of(tx: Tx, trial: Trial) -> Strip:
         seed=trial.seed,
         head=trial.identity,
     )
+
+
+def _by_attempt(recorded: Sequence[Recorded]) -> dict[int, list[Recorded]]:
+    attempts: dict[int, list[Recorded]] = {}
+    for one in recorded:
+        attempts.setdefault(one[0].attempt, []).append(one)
+    return attempts
 
 
 def _distances(recorded: Sequence[Recorded]) -> dict[str, float]:
