@@ -104,7 +104,7 @@ def pool(population: Population) -> Pool:
 
 
 def _of(elites: Elites, who: Places) -> Elites:
-    return Elites(elites.genes[who], elites.weights[who], elites.right[who])
+    return Elites(elites.genes[who], elites.weights[who], elites.right[who], elites.ended[who])
 
 
 def _together(judged: list[Judgements]) -> Judgements:

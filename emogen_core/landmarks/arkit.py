@@ -80,30 +80,38 @@ def core_weights(rig: Rig, coefficients: Mapping[str, float]) -> Floats:
     """Return (C,) weights of the core shapes in [0, 1].
 
     Args:
-        rig: a face model with the bundled rig's shapes.
+        rig: a face model with shapes of the bundled rig, or with shapes that have ARKit's own names.
         coefficients: ARKit name -> coefficient; what is missing is 0.
 
     Raises:
-        InvalidInputError: an unknown name, a coefficient that is none, or a rig without these shapes.
+        InvalidInputError: an unknown name, a coefficient that is none, or a rig without any of their shapes.
     """
-    index = {name: row for row, name in enumerate(rig.core_shapes)}
-    core = np.zeros(len(index))
+    _check(coefficients)
+    served = {name: rows for name in coefficients if (rows := _rows(rig, name))}
+    if coefficients and not served:
+        wanted = expected("shapes named as the bundled rig's or as ARKit's", f"none for {[*coefficients][:5]}")
+        raise InvalidInputError(f"rig: {wanted}")
+    core = np.zeros(len(rig.core_shapes))
+    for name, rows in served.items():
+        core[rows] = min(max(coefficients[name], 0.0), 1.0)
+    return core
+
+
+def unserved(rig: Rig, coefficients: Iterable[str]) -> list[str]:
+    """Return which ARKit names a rig has no shape for."""
+    return [name for name in coefficients if not _rows(rig, name)]
+
+
+def _check(coefficients: Mapping[str, float]) -> None:
     for name, value in coefficients.items():
         if name not in TABLE:
             raise InvalidInputError(f"coefficients: {expected('ARKit names, as jawOpen', name)}")
         if not -_EXCESS <= value <= 1 + _EXCESS:
             raise InvalidInputError(f"{name}: {expected('a coefficient in [0, 1]', value)}")
-        core[_rows(index, TABLE[name])] = min(max(value, 0.0), 1.0)
-    return core
 
 
-def unserved(coefficients: Iterable[str]) -> list[str]:
-    """Return which ARKit names the rig has no shape for."""
-    return [name for name in coefficients if not TABLE[name]]
-
-
-def _rows(index: Mapping[str, int], shapes: tuple[str, ...]) -> list[int]:
-    missing = [shape for shape in shapes if shape not in index]
-    if missing:
-        raise InvalidInputError(f"rig: {expected('the shapes of the bundled rig', f'none for {missing}')}")
-    return [index[shape] for shape in shapes]
+def _rows(rig: Rig, name: str) -> list[int]:
+    """Return the core shapes that take a coefficient: those of the table that a rig has, else the one of that name."""
+    own = [shape for shape in TABLE[name] if shape in rig.core_shapes]
+    named = [name] if name in rig.core_shapes else []
+    return [rig.core_shapes.index(shape) for shape in own or named]

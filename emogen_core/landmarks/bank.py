@@ -1,7 +1,8 @@
 """The bank of expressions on which the published method stands (Zhu & Lee 2006, section 2).
 
 Theirs are 30 frames of one recorded face, six full emotions among them; the others lie between these. Ours are the six
-emotion sets of the rig and 24 mixtures of two of them, with every gene at a strength of its own.
+emotion sets of the rig (an imported one may have fewer) and mixtures of two of them up to 30, with every gene at a
+strength of its own.
 """
 
 from __future__ import annotations
@@ -10,6 +11,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from emogen_core.errors import InvalidInputError, expected
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -48,7 +51,13 @@ def make_bank(head: DrivenHead, genes: Floats) -> Bank:
 
 
 def bank_genes(rig: Rig) -> Floats:
-    """Return the (30, G) genomes of the bundled bank: always the same."""
+    """Return the (30, G) genomes of a rig's bank: always the same.
+
+    Raises:
+        InvalidInputError: the rig has no emotion sets.
+    """
+    if not rig.emotion_sets:
+        raise InvalidInputError(f"bank: {expected('a rig with emotion sets', 'none')}; use the method rig")
     prototypes = np.stack([rig.emotion_genes(name) for name in rig.emotion_sets])
     return np.concatenate([prototypes, mixtures(rig, SIZE - len(prototypes), np.random.default_rng(_SEED))])
 

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from emogen_core.face.evaluate import vertices
-from emogen_core.landmarks.points import feature_points
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -30,16 +29,19 @@ class DrivenHead:
     """One identity of a rig.
 
     Attributes:
-        rig: the face model, on the bundled mesh.
+        rig: the face model.
         identity: the head that wears it.
         combined: from (B, C) weights of core shapes to (B, K), combinational correctives included.
         corrected: from these to (B, K) weights with collisions solved.
+        locate: finds the (P,) vertices of the feature points on its mesh, in the order of the standard; that may take
+            seconds, and coefficients do without.
     """
 
     rig: Rig
     identity: str
     combined: Weights
     corrected: Weights
+    locate: Callable[[], NDArray[np.intp]]
 
     @cached_property
     def neutral(self) -> Floats:
@@ -49,7 +51,7 @@ class DrivenHead:
     @cached_property
     def vertices(self) -> NDArray[np.intp]:
         """(P,) vertices of the feature points."""
-        return np.array([point.vertex for point in feature_points(self.rig)], np.intp)
+        return self.locate()
 
     @cached_property
     def points(self) -> Floats:

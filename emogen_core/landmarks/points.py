@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from emogen_core.errors import InvalidInputError, expected
+from emogen_core.face.bundled import load_bundled_rig
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,13 +23,10 @@ if TYPE_CHECKING:
 
     from emogen_core.face.rig import Rig
 
-MESH = 14528
-"""Vertices of the mesh on which the points are known."""
-
 
 @dataclass(frozen=True, slots=True)
 class FeaturePoint:
-    """One point: its name in the standard, what it is, and its vertex on the bundled mesh."""
+    """One point: its name in the standard, what it is, and its vertex on a mesh."""
 
     name: str
     meaning: str
@@ -78,14 +76,20 @@ PAIRS = tuple((left, right) for left, right, _, _ in _PAIRS)
 """Names of mirror images: the left point, the right one."""
 
 
-def feature_points(rig: Rig) -> tuple[FeaturePoint, ...]:
-    """Return the 56 points in the order of the standard, with their vertices on a rig's mesh.
+def is_bundled_mesh(rig: Rig) -> bool:
+    """Return whether a rig is of the mesh on which the points are known by number."""
+    return np.array_equal(rig.triangles, load_bundled_rig().triangles)
+
+
+def bundled_points(rig: Rig) -> tuple[FeaturePoint, ...]:
+    """Return the 56 points in the order of the standard, with their vertices on the bundled mesh.
 
     Raises:
-        InvalidInputError: the rig has another mesh than the bundled one.
+        InvalidInputError: the rig has another mesh (`emogen_core.rigs.landmark_head` finds them there).
     """
-    if len(rig.mirror) != MESH:
-        raise InvalidInputError(f"feature points: {expected(f'the bundled mesh of {MESH} vertices', len(rig.mirror))}")
+    if not is_bundled_mesh(rig):
+        got = f"{len(rig.triangles)} other triangles"
+        raise InvalidInputError(f"feature points: {expected('the bundled mesh', got)}")
     points = [FeaturePoint(*row) for row in _MIDDLE]
     for left, right, meaning, vertex in _PAIRS:
         points.append(FeaturePoint(left, meaning.format("left", "right"), vertex))

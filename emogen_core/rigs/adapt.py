@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from emogen_core.correctives.collision.regions import has_regions, judge_anchors, target_faces
+from emogen_core.correctives.collision.regions import has_regions
 from emogen_core.face.rig import Adjustment
 from emogen_core.rigs.candidates import Deriver, Pair
-from emogen_core.rigs.collision_bake import settled
 from emogen_core.rigs.fitting import Head, cleared_neutral, fitted_lids, gene_offsets, kept_shut, sealed_shapes
-from emogen_core.rigs.lips import close_slits, seal_lips, visible_teeth
+from emogen_core.rigs.lips import seal_lips
 from emogen_core.rigs.mending import eased_lips, mended_shapes
 from emogen_core.rigs.rest import BROWS, corners_lifted, rest_pose
+from emogen_core.rigs.shut_mouth import shut_mouth
 from emogen_core.rigs.topology import RigTopology
 
 if TYPE_CHECKING:
@@ -27,15 +27,14 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from emogen_core.correctives.collision.regions import Anchors
     from emogen_core.face.rig import Rig
     from emogen_core.face.space import IdentitySpace
     from emogen_core.rigs.fitting import Mesh, Meshes
+    from emogen_core.rigs.shut_mouth import ShutMouth
     from emogen_core.rigs.topology import Topology
 
 # Differences below this, millimetres, are not worth storing.
 _SEEN = 0.02
-_ROUNDS = 10
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,14 +68,7 @@ class Fitter:
 
     def freed(self, mesh: Mesh) -> Mesh:
         """Return a sealed (N, 3) face in which lips and teeth neither collide nor let a tooth be seen."""
-        if self._anchors is None:
-            return mesh
-        low, target = self.space.low.astype(np.float64), target_faces(self.rig)
-        for _ in range(_ROUNDS):
-            mesh = settled(self.rig, close_slits(self._topology, low, mesh), self._anchors, target)
-            if not len(visible_teeth(self._topology, mesh)):
-                break
-        return mesh
+        return mesh if self._mouth is None else self._mouth.freed(mesh)
 
     def shut(self, neutral: Mesh, core: Meshes) -> Meshes:
         """Return the core shapes with every gene that leaves the mouth closed keeping it shut on a (N, 3) head."""
@@ -121,8 +113,8 @@ class Fitter:
         return [Pair(parents[name], method) for name, method in self.space.lid_correctives]  # type: ignore[arg-type]
 
     @cached_property
-    def _anchors(self) -> Anchors | None:
-        return judge_anchors(self.rig) if has_regions(self.rig) else None
+    def _mouth(self) -> ShutMouth | None:
+        return shut_mouth(self.rig, self.space.low.astype(np.float64)) if has_regions(self.rig) else None
 
 
 def rested(

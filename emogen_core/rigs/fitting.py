@@ -21,7 +21,7 @@ from emogen_core.rigs.gene_table import RECIPES
 from emogen_core.rigs.lids import EDGE, closing_factor, closing_scale, lid_rings
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
     Mesh = NDArray[np.float64]
     Meshes = dict[str, Mesh]
+    Members = Mapping[str, tuple[str, ...]]
 
 # Genes that close the mouth or leave it closed: at weight 1 the lips just touch.
 SHUT_GENES = (
@@ -53,7 +54,7 @@ _CARRIED = 4.0
 _RIM_FADE = (3.0, 9.0)
 
 _CLOSURE = (f"{CLOSING}.L", f"{CLOSING}.R")
-_MEMBERS = {recipe.name: recipe.members for recipe in RECIPES}
+_MEMBERS: Members = {recipe.name: recipe.members for recipe in RECIPES}
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,9 +66,8 @@ class Head:
     eye_radius: float = RADIUS
 
 
-def gene_offsets(core: Meshes, genes: tuple[str, ...] = tuple(_MEMBERS)) -> Meshes:
+def gene_offsets(core: Meshes, members: Members = _MEMBERS) -> Meshes:
     """Return gene -> (N, 3) offsets of all its members together."""
-    members = {name: _MEMBERS[name] for name in genes}
     return {name: sum((core[m] for m in listed[1:]), core[listed[0]]) for name, listed in members.items()}
 
 
@@ -79,23 +79,40 @@ def sealed_shapes(neutral: Mesh, core: Meshes, seal: Callable[[Mesh], Mesh]) -> 
         core: core shape -> (N, 3) offsets.
         seal: takes an (N, 3) face with a closed mouth and closes what is open of it.
     """
-    fitted, genes = dict(core), gene_offsets(core, SHUT_GENES)
-    left = neutral[:, :1] > 0
-    for gene, offsets in genes.items():
-        _spread(fitted, gene, seal(neutral + offsets) - neutral - offsets, left, neutral)
+    fitted, members = dict(core), {gene: _MEMBERS[gene] for gene in SHUT_GENES}
+    for gene, offsets in gene_offsets(core, members).items():
+        spread(fitted, members[gene], seal(neutral + offsets) - neutral - offsets, neutral)
     return fitted
+
+
+def spread(shapes: Meshes, members: Sequence[str], change: Mesh, neutral: Mesh) -> None:
+    """Add a change of a gene to its one or two members: each side's half to its own, the middle to both alike."""
+    if len(members) == 1:
+        shapes[members[0]] = shapes[members[0]] + change
+        return
+    across = neutral[:, :1]
+    share = np.where(np.abs(across) < 1e-6, 0.5, across > 0)
+    shapes[members[0]] = shapes[members[0]] + share * change
+    shapes[members[1]] = shapes[members[1]] + (1 - share) * change
 
 
 def fitted_lids(geometry: Topology, head: Head, core: Meshes) -> Meshes:
     """Return the core shapes that move lids, fitted to a head whose skin is clear of its eyeballs."""
-    closing = closed_lids(geometry, head, core)
-    fitted = {member: core[member] for gene in LID_GENES for member in _MEMBERS[gene]} | closing
-    genes = gene_offsets(core | fitted)
-    left = head.neutral[:, :1] > 0
-    for gene in LID_GENES:
-        company = (share * genes[other] for other, share in _COMPANY.get(gene, {}).items())
+    return clear_lids(geometry, head, core | closed_lids(geometry, head, core), _MEMBERS)
+
+
+def clear_lids(geometry: Topology, head: Head, core: Meshes, members: Members) -> Meshes:
+    """Return the core shapes that move lids, none of which lets the eyeballs through on its way to weight 1.
+
+    ``members`` are gene -> core shapes; those of `LID_GENES` that are not there are left out.
+    """
+    lids = [gene for gene in LID_GENES if gene in members]
+    fitted = {member: core[member] for gene in lids for member in members[gene]}
+    genes = gene_offsets(core, members)
+    for gene in lids:
+        company = (share * genes[other] for other, share in _COMPANY.get(gene, {}).items() if other in genes)
         together = sum(company, genes[gene])
-        _spread(fitted, gene, cleared(geometry, head, together) - together, left, head.neutral)
+        spread(fitted, members[gene], cleared(geometry, head, together) - together, head.neutral)
     return fitted
 
 
@@ -229,14 +246,3 @@ def _nearest_on_path(start: Mesh, end: Mesh) -> Mesh:
     share = -(start * way).sum(1) / np.maximum((way**2).sum(1), 1e-12)
     nearest: Mesh = start + np.clip(share, 0, 1)[:, None] * way
     return nearest
-
-
-def _spread(shapes: Meshes, gene: str, change: Mesh, left: NDArray[np.bool_], neutral: Mesh) -> None:
-    """Add a change of a gene to its members: each side's half to its own, the middle to both alike."""
-    members = _MEMBERS[gene]
-    if len(members) == 1:
-        shapes[members[0]] = shapes[members[0]] + change
-        return
-    share = np.where(np.abs(neutral[:, :1]) < 1e-6, 0.5, left)
-    shapes[members[0]] = shapes[members[0]] + share * change
-    shapes[members[1]] = shapes[members[1]] + (1 - share) * change

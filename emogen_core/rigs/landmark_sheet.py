@@ -9,7 +9,6 @@ from PIL import Image, ImageDraw, ImageFont
 
 from emogen_core.landmarks.points import NAMES
 from emogen_core.rendering.camera import frame_head
-from emogen_core.rendering.setup import look_for
 from emogen_core.rendering.surface import Surface
 from emogen_core.rigs.contact import Frame
 from emogen_core.rigs.labels import place_labels
@@ -18,6 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from emogen_core.landmarks.head import DrivenHead
+    from emogen_core.rendering.look import Look
     from emogen_core.rendering.protocol import Renderer
 
 WIDTH = 1500
@@ -26,12 +26,13 @@ _DOT, _LETTERS = 6, 25
 _INK, _PAPER = (16, 32, 72), (255, 255, 255)
 
 
-def points_picture(renderer: Renderer, head: DrivenHead, width: int = WIDTH) -> Image.Image:
+def points_picture(renderer: Renderer, head: DrivenHead, look: Look, width: int = WIDTH) -> Image.Image:
     """Draw a head at rest with its 56 feature points and their names; no label covers a point or another label.
 
     Args:
         renderer: draws; it must wear the head's rig.
         head: whose points.
+        look: what the renderer draws it in; the camera frames that.
         width: of the picture, pixels.
     """
     frame = Frame(width, _FACE)
@@ -41,7 +42,7 @@ def points_picture(renderer: Renderer, head: DrivenHead, width: int = WIDTH) -> 
     scale = width / WIDTH
     font = ImageFont.load_default(_LETTERS * scale)
     pen = ImageDraw.Draw(picture)
-    places = _on_picture(head, frame)
+    places = _on_picture(head, look, frame)
     boxes = np.array([pen.textbbox((0, 0), name, font=font, anchor="mm") for name in NAMES])
     sizes = boxes[:, 2:] - boxes[:, :2] + 8 * scale
     middles = place_labels(places, sizes, 22 * scale)
@@ -55,10 +56,10 @@ def points_picture(renderer: Renderer, head: DrivenHead, width: int = WIDTH) -> 
     return picture
 
 
-def _on_picture(head: DrivenHead, frame: Frame) -> NDArray[np.float64]:
+def _on_picture(head: DrivenHead, look: Look, frame: Frame) -> NDArray[np.float64]:
     """Return (56, 2) columns and rows of the feature points on a head's cut portrait."""
     width, height = frame.settings.width, frame.settings.height
-    camera = frame_head(Surface(head.rig, look_for(head.rig)).neutral_skin(head.identity))
+    camera = frame_head(Surface(head.rig, look).neutral_skin(head.identity))
     left, top, _, _ = frame.part
     places: NDArray[np.float64] = camera.project(head.points, width, height)[:, :2]
     return places - (round(left * width), round(top * height))

@@ -10,15 +10,17 @@ import numpy as np
 from trimesh.registration import procrustes
 
 from emogen_core.errors import InvalidInputError, expected
+from emogen_core.rigs.foreign.files import read_limited
+from emogen_core.rigs.foreign.obj import parse_obj
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from emogen_core.face.rig import Rig
+    from emogen_core.rigs.foreign.obj import ObjMesh
 
 # Heads differ by a few percent of their size, vertices in another order by all of it.
 _FURTHEST = 0.25
-_LATIN = "latin-1"  # reads anything: names of materials are in any code, numbers are in ASCII
 
 
 def target_head(rig: Rig, target: str) -> tuple[Rig, str]:
@@ -29,7 +31,7 @@ def target_head(rig: Rig, target: str) -> tuple[Rig, str]:
         target: one of its identities, the path of an OBJ file with the same vertices, or empty for its first identity.
 
     Raises:
-        InvalidInputError: neither an identity nor such a file.
+        InvalidInputError: neither an identity nor such a file; as `read_mesh` and `aligned`.
     """
     if not target:
         return rig, rig.identities[0]
@@ -39,30 +41,26 @@ def target_head(rig: Rig, target: str) -> tuple[Rig, str]:
         wanted = f"one of {list(rig.identities)} or an OBJ file"
         raise InvalidInputError(f"target: {expected(wanted, target)}")
     name = Path(target).stem
-    mesh = aligned(read_positions(Path(target)), rig.neutral(rig.identities[0]))
+    mesh = aligned(read_mesh(Path(target)).vertices, rig.neutral(rig.identities[0]))
     return replace(rig, neutrals={**rig.neutrals, name: mesh.astype(np.float32)}), name
 
 
-def read_positions(path: Path) -> NDArray[np.float64]:
-    """Return the (n, 3) positions of an OBJ file, in its order and unit; faces, normals and colours are passed over.
+def read_mesh(path: Path, neutral: ObjMesh | None = None) -> ObjMesh:
+    """Return a head from an OBJ file, in its order and unit, as an import of heads reads it.
+
+    Args:
+        path: the file.
+        neutral: the same head at rest, whose vertices and faces it has to have.
 
     Raises:
-        InvalidInputError: the file cannot be read, or a position is not three finite numbers.
+        InvalidInputError: the file cannot be read or is no OBJ, a position is not finite, or the mesh is another.
     """
-    try:
-        lines = path.read_text(_LATIN).splitlines()
-    except OSError as error:
-        raise InvalidInputError(f"target: {expected('an OBJ file', f'{path} ({error.strerror})')}") from error
-    rows = [line.split()[1:4] for line in lines if line.startswith(("v ", "v\t"))]
-    try:
-        found = np.array(rows, np.float64).reshape(len(rows), 3)
-    except ValueError as error:
-        wanted = expected("three numbers after each v of an OBJ file", f"{path} ({error})")
-        raise InvalidInputError(f"target: {wanted}") from None
-    if not np.isfinite(found).all():
-        bad = int(np.flatnonzero(~np.isfinite(found).all(1))[0])
-        raise InvalidInputError(f"target: {expected('finite positions', f'{rows[bad]} at vertex {bad} of {path}')}")
-    return found
+    mesh = parse_obj(read_limited(path), path.name, neutral)
+    bad = np.flatnonzero(~np.isfinite(mesh.vertices).all(1))
+    if len(bad):
+        got = f"{mesh.vertices[bad[0]].tolist()} at vertex {bad[0]}, and {len(bad) - 1} more such"
+        raise InvalidInputError(f"{path.name}: expected finite coordinates, got {got}; export it again")
+    return mesh
 
 
 def aligned(mesh: NDArray[np.float64], template: NDArray[np.floating]) -> NDArray[np.float64]:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from emogen_core.correctives.pipeline import combined_weights
 from emogen_core.errors import InvalidInputError, expected
 from emogen_core.face.space import topology_hash
 from emogen_core.rigs.adapt import Fitter
@@ -96,9 +97,7 @@ def transferred(
     """
     first = rig.identities[0]
     template = Template(rig.neutral(first), rig.shape_offsets(first), rig.triangles)
-    weights = np.zeros((len(target.weights), len(rig.shape_names)))
-    weights[:, : len(rig.core_shapes)] = target.weights
-    training = Training(weights, target.expressions) if len(weights) else None
+    training = Training(_worn(rig, target.weights), target.expressions) if len(target.weights) else None
     carried = transfer(template, target.neutral, training, method)
     made = replace(
         rig,
@@ -109,6 +108,13 @@ def transferred(
         adjustments={},
     )
     return _fitted(made, space) if space else made
+
+
+def _worn(rig: Rig, core: Mesh) -> Mesh:
+    """Return (E, K) weights of all shapes: who poses two that have a combinational corrective shows that as well."""
+    worn: Mesh = combined_weights(rig, np.clip(np.nan_to_num(core), 0, 1)).astype(np.float64)
+    worn[:, : core.shape[1]] = core
+    return worn
 
 
 def of_this_mesh(rig: Rig, space: IdentitySpace) -> bool:

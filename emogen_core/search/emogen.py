@@ -76,6 +76,11 @@ def tell(params: SearchParams, state: State, choice: Choice) -> State:
     return State(NAME, state.seed, state.attempt, state.generation + 1, genomes, told)
 
 
+def last(params: SearchParams, state: State) -> bool:
+    """Return whether `state.generation` is the last one of the trial: this search does not know how sure it is."""
+    return state.generation >= params.generations
+
+
 def estimate(params: SearchParams, state: State) -> None:
     """Return nothing: the measurement of this search is its last elite."""
     del params, state

@@ -20,6 +20,8 @@ BLENDS = 3
 """Slots 1 to 3: the elite and the two averages."""
 RANDOM_GENES = 6
 """x of the paper."""
+MOST_STOP_AT = 0.5
+STOPS = f"None, or above 0 and at most {MOST_STOP_AT}"
 INITIAL_EMOTIONS = ("happy", "sad", "angry", "fearful")
 
 Genome = tuple[float, ...]
@@ -42,6 +44,9 @@ class SearchParams:
         active: indices of the genes that the search may move; all others stay 0.
         initial_sets: gene sets of the protocol initialisation.
         generations: G of the paper; the trial ends with the elite of this generation.
+        stop_at: the trial ends earlier once the search expects to be this near to what is meant, as a cosine distance;
+            None: it does not. Only for strategies that know how sure they are.
+        least_generations: then the first generation that may be the last one.
         minimum, maximum: how many faces a choice may hold.
         mutations: m, gene indices drawn a bred face.
         random_genes: x, genes drawn a random face.
@@ -58,6 +63,8 @@ class SearchParams:
     active: tuple[int, ...]
     initial_sets: tuple[FaceSet, ...]
     generations: int = 10
+    stop_at: float | None = None
+    least_generations: int = 3
     minimum: int = 1
     maximum: int = POPULATION
     mutations: int = 2
@@ -84,6 +91,13 @@ class SearchParams:
             ("initial_sets", all(s.genes for s in self.initial_sets), "sets with genes", self.initial_sets),
             ("initial_sets", bool(self.initial_sets) or fixed is not None, "at least one set", ()),
             ("generations", self.generations >= 1, "at least 1", self.generations),
+            ("stop_at", self.stop_at is None or 0 < self.stop_at <= MOST_STOP_AT, STOPS, self.stop_at),
+            (
+                "least_generations",
+                self.stop_at is None or 1 <= self.least_generations <= self.generations,
+                "1 up to the generations",
+                self.least_generations,
+            ),
             ("minimum", 1 <= self.minimum <= self.maximum, "1 up to the maximum", self.minimum),
             ("maximum", self.maximum <= POPULATION, f"at most {POPULATION}", self.maximum),
             ("mutations", self.mutations >= 0, "0 or more", self.mutations),

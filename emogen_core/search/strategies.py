@@ -37,6 +37,10 @@ class Strategy(Protocol):
         """Return the state after a choice on those ten faces."""
         ...
 
+    def last(self, params: SearchParams, state: State) -> bool:
+        """Return whether `state.generation` is the last one of its trial: after the choice on it the trial ends."""
+        ...
+
     def estimate(self, params: SearchParams, state: State) -> NDArray[np.float64] | None:
         """Return the (G,) face that all answers together speak for; None where the strategy weighs no answers."""
         ...

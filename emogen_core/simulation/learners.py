@@ -6,16 +6,17 @@ Every search has streams of its own, so searches can be shared out in any way.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
 from emogen_core.search.initial import initial_population
 from emogen_core.search.params import POPULATION
-from emogen_core.search.preference.learning import Turn, faces_of, learn
+from emogen_core.search.preference.ending import doubt, sure_enough
+from emogen_core.search.preference.learning import faces_of, learn, turn_of
 from emogen_core.search.preference.proposals import mean_face
-from emogen_core.search.preference.utility import COSINE, space_of, utilities
+from emogen_core.search.preference.utility import space_of
 from emogen_core.search.state import Choice
 from emogen_core.search.streams import BELIEFS, PROPOSALS, option_of, stream
 from emogen_core.simulation.participant import permitted
@@ -33,6 +34,8 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
+T = TypeVar("T")
+
 CHUNK = 40
 """Searches that are made at a time where work is shared out: half a minute of it, so that progress shows."""
 IN_STEP = 8
@@ -48,12 +51,24 @@ class Learned:
         means: (R, generations + 1, K) weights of the mean face of what was believed after every answer.
         shown: (R, generations + 1, 10, G) genomes of all faces.
         doubt: (R, generations + 1) mean cosine distance of that mean face to the faces that may be meant.
+
+    Of a search that ended early, what stood at its end is told again for the generations after it.
     """
 
     elites: Elites
     means: NDArray[np.float32]
     shown: NDArray[np.float32]
     doubt: NDArray[np.float32]
+
+    @property
+    def estimated(self) -> Elites:
+        """The same searches with their last mean face as result, one more after the best face with which each ended.
+
+        The genes stay those of the last best face.
+        """
+        weights = np.concatenate([self.elites.weights, self.means[:, -1:]], 1)
+        own = np.arange(weights.shape[1]) > self.elites.ended[:, None]
+        return replace(self.elites, weights=np.where(own[..., None], self.means[:, -1:], weights))
 
 
 def learned(experiment: Experiment, seed: Seed, searches: range) -> Learned:
@@ -65,9 +80,7 @@ def learned(experiment: Experiment, seed: Seed, searches: range) -> Learned:
         searches: which ones, from 0.
     """
     parts = [_played(experiment, seed, searches[i : i + IN_STEP]) for i in range(0, len(searches), IN_STEP)]
-    elites = Elites(
-        *(np.concatenate([getattr(one.elites, name) for one in parts]) for name in ("genes", "weights", "right"))
-    )
+    elites = Elites(*(np.concatenate([getattr(one.elites, field.name) for one in parts]) for field in fields(Elites)))
     return Learned(
         elites, *(np.concatenate([getattr(one, name) for one in parts]) for name in ("means", "shown", "doubt"))
     )
@@ -89,15 +102,17 @@ class _Search:
             np.random.default_rng(np.random.SeedSequence(entropy=seed, spawn_key=(number, i))) for i in (1, 2)
         )
         self.population = _first(experiment, self.seed)
-        self.shown, self.elites, self.means, self.right, self.doubt = (list["Floats"]() for _ in range(5))
+        self.shown, self.elites, self.means, self.right = (list["Floats"]() for _ in range(4))
+        self.doubt, self.ended = list[float](), False
+        self.sample: Sample | None = None
 
     def choose(self) -> None:
         """Choose as the participant does; of the last generation, the elite only."""
-        generation, observer = len(self.told), self.experiment.observer
+        observer, self.ended = self.experiment.observer, self._last
         weights = np.asarray(self.experiment.faces(self.population), np.float64)
         distances = self.experiment.metric(weights, np.asarray(self.experiment.faces(self.mind)))
         ranks = observer.ranked(distances[None], self.judging)[0]
-        chosen = tuple(int(slot) + 1 for slot in ranks[: self._count(generation)])
+        chosen = tuple(int(slot) + 1 for slot in ranks[: self._count()])
         self.told.append((self.population[:, self.active], Choice(chosen, chosen[0])))
         self.shown.append(self.population)
         self.elites.append(weights[ranks[0]])
@@ -109,24 +124,33 @@ class _Search:
         return stream(self.seed, 0, len(self.told), purpose)
 
     def believe(self, space: Space, sample: Sample) -> None:
-        """Take what is believed after the last choice, and make the next ten faces of it."""
-        params = self.experiment.params
+        """Take what is believed after the last choice, and make the next ten faces of it, if there are any."""
+        params, self.sample = self.experiment.params, sample
         genes = np.zeros((1 + POPULATION, params.gene_count))
         genes[0, self.active] = mean_face(space, sample)
-        every = np.full(len(sample.metric), COSINE)
-        self.doubt.append(1 - utilities(space, genes[:1, self.active], sample.genes, every).mean())
+        self.doubt.append(doubt(space, sample))
         self.means.append(np.asarray(self.experiment.faces(genes[:1]))[0])
-        if len(self.told) <= params.generations:
+        if not self.ended:
             faces, choice = self.told[-1]
-            turn, rng = Turn(len(self.told), params.generations), self.stream(PROPOSALS)
+            turn = turn_of([one for _, one in self.told], params.generations, sure=self._sure)
+            rng = self.stream(PROPOSALS)
             genes[1:, self.active] = faces_of(space, sample, faces[choice.elite - 1], turn, rng)[0]
             self.population = genes[1:]
 
-    def _count(self, generation: int) -> int:
+    @property
+    def _sure(self) -> bool:
+        """Whether enough is known for the next choice to be the last one."""
+        return bool(self.doubt) and sure_enough(self.experiment.params, len(self.told), self.doubt[-1])
+
+    @property
+    def _last(self) -> bool:
+        return self._sure or len(self.told) == self.experiment.params.generations
+
+    def _count(self) -> int:
         params = self.experiment.params
-        if generation == params.generations:
+        if self.ended:
             return 1
-        return permitted(self.experiment.selections(generation), params.minimum, params.maximum)
+        return permitted(self.experiment.selections(len(self.told)), params.minimum, params.maximum)
 
 
 def _first(experiment: Experiment, seed: int) -> Floats:
@@ -142,20 +166,38 @@ def _first(experiment: Experiment, seed: int) -> Floats:
 def _played(experiment: Experiment, seed: Seed, numbers: Sequence[int]) -> Learned:
     space = space_of(experiment.params)
     searches = [_Search(experiment, seed, number) for number in numbers]
-    samples: list[Sample] | None = None
-    for _ in range(experiment.params.generations + 1):
-        for one in searches:
+    going = searches
+    while going:
+        for one in going:
             one.choose()
-        told: list[Told] = [one.told for one in searches]
-        samples = learn(space, told, samples, [one.stream(BELIEFS) for one in searches])
-        for one, sample in zip(searches, samples, strict=True):
-            one.believe(space, sample)
+        _learn(space, [one for one in going if one.ended])
+        going = [one for one in going if not one.ended]
+        _learn(space, going)
     return _learned(searches)
 
 
+def _learn(space: Space, searches: Sequence[_Search]) -> None:
+    """Learn from the last choices of searches that were told as many answers, of as many faces each."""
+    if not searches:
+        return
+    told: list[Told] = [one.told for one in searches]
+    before = [one.sample for one in searches if one.sample is not None]
+    samples = learn(space, told, before or None, [one.stream(BELIEFS) for one in searches])
+    for one, sample in zip(searches, samples, strict=True):
+        one.believe(space, sample)
+
+
 def _learned(searches: Sequence[_Search]) -> Learned:
-    weights, means, shown, doubt = (
-        np.array([getattr(one, name) for one in searches], np.float32) for name in ("elites", "means", "shown", "doubt")
+    weights, means, shown, doubts = (
+        np.array([_filled(one, getattr(one, name)) for one in searches], np.float32)
+        for name in ("elites", "means", "shown", "doubt")
     )
     genes = np.stack([one.shown[-1][one.told[-1][1].elite - 1] for one in searches])
-    return Learned(Elites(genes, weights, np.array([one.right for one in searches], np.bool_)), means, shown, doubt)
+    right = np.array([_filled(one, one.right) for one in searches], np.bool_)
+    ended = np.array([len(one.told) - 1 for one in searches])
+    return Learned(Elites(genes, weights, right, ended), means, shown, doubts)
+
+
+def _filled(search: _Search, values: list[T]) -> list[T]:
+    """Return one value a generation, the last one again for those after its end."""
+    return values + values[-1:] * (search.experiment.params.generations + 1 - len(values))

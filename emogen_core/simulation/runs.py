@@ -63,16 +63,31 @@ class Elites:
         genes: (R, G) genomes of the last ones, the measurements.
         weights: (R, generations + 1, K).
         right: (R, generations + 1) whether no face of the ten was nearer to the face in mind, as that was then.
+        ended: (R,) last generation that was seen. Of a search that ended before the others, the face and whether it was
+            the nearest are told again for the generations after it.
     """
 
     genes: Floats
     weights: NDArray[np.float32]
     right: NDArray[np.bool_]
+    ended: NDArray[np.intp]
 
     @property
     def final(self) -> NDArray[np.float32]:
         """(R, K) weights of the measurements."""
         return self.weights[:, -1]
+
+    @property
+    def there(self) -> NDArray[np.bool_]:
+        """(R, ...) which of the faces of `weights` there were: up to the end, and one more if it is the result."""
+        faces = self.weights.shape[1]
+        return np.asarray(np.arange(faces) <= self.ended[:, None] + faces - self.right.shape[1])
+
+    @property
+    def accuracy(self) -> float:
+        """Share of the choices in which the face marked as best was the nearest one."""
+        chosen = np.arange(self.right.shape[1]) <= self.ended[:, None]
+        return float(self.right[chosen].mean())
 
 
 def simulate(experiment: Experiment, seed: Seed, repetitions: int = 500) -> Elites:
@@ -131,7 +146,8 @@ def chunk(
             mind = observer.drifted(mind, params.active, drifting)
             meant = experiment.faces(mind) if observer.drift else meant
     seen = np.stack(weights, 1)[:searches].astype(np.float32)
-    return Elites(population[elites][:searches], seen, np.stack(right, 1)[:searches])
+    ended = np.full(searches, params.generations)
+    return Elites(population[elites][:searches], seen, np.stack(right, 1)[:searches], ended)
 
 
 def _streams(seed: Seed, number: int) -> list[np.random.Generator]:

@@ -18,11 +18,13 @@ from .telling import lacking
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from numpy.typing import NDArray
+
     from emogen_core.analysis.cells import Corrected, Summary
     from emogen_core.analysis.enough import Result
     from emogen_core.analysis.recorded import Cell, Faces
     from emogen_core.face.rig import Rig
-    from emogen_core.simulation.evaluation.threshold import Threshold
+    from emogen_core.simulation.evaluation.groups import Noises
 
     from .faces import Studio
     from .reading import Recording
@@ -80,7 +82,7 @@ class Context:
         """The emotions, in the study's order."""
         return tuple(dict.fromkeys(self.faces.emotions.tolist()))
 
-    def noise(self, cell: Cell) -> Threshold:
+    def noise(self, cell: Cell) -> Noises:
         """Return the noise of the search by which most faces of a cell were found."""
         return self.simulated.thresholds[self.recording.searches_of(cell)[0]]
 
@@ -120,6 +122,10 @@ class Context:
     def head(self, identity: str) -> str:
         """Return what people call a head; tables have it as the export has it, so that they can be joined."""
         return self.names.get(identity, identity)
+
+    def ways(self, faces: Faces) -> tuple[NDArray[np.float64], ...]:
+        """Return the best faces on the way to each face: without the estimate, which nobody chose."""
+        return faces.elites if self.recording.result == "elite" else tuple(way[:-1] for way in faces.elites)
 
     @cached_property
     def names(self) -> Mapping[str, str]:

@@ -108,9 +108,12 @@ def _every_face(context: Context) -> Sheet:
     recording = context.recording
     faces = recording.faces
     rows = zip(
-        recording.face_ids, recording.trials, faces.people.tolist(), faces.emotions.tolist(),
+        (recording.result,) * len(faces), recording.face_ids, recording.trials, faces.people.tolist(),
+        faces.emotions.tolist(),
         faces.identities.tolist(), faces.conditions.tolist(), faces.repetitions.tolist(),
         lengths(faces.weights).tolist(), recording.seeds, strict=True,
     )  # fmt: skip
-    names = ("face", "trial", "participation", "emotion", "head", "condition", "repetition", "intensity", "seed")
+    names = (
+        "result", "face", "trial", "participation", "emotion", "head", "condition", "repetition", "intensity", "seed"
+    )  # fmt: skip
     return Sheet("faces", tuple(map(Column, names)), tuple(rows))

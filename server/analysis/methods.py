@@ -7,11 +7,15 @@ from typing import TYPE_CHECKING, Literal
 
 from emogen_core.search import preference
 
+from ..services.trials.evolve import may_end_early
 from .telling import counted, listed
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from emogen_core.simulation.evaluation.specs import ResultName
+
+    from ..services.config import StudyConfig
     from .context import Context
     from .section import Section
 
@@ -41,6 +45,12 @@ REFERENCES = {
     " https://doi.org/10.48550/arXiv.2107.00480",
 }
 """What may be cited, by the words that cite it."""
+ANALYSED = {
+    "elite": "The faces analysed are those last chosen as best.",
+    "estimate": "The faces analysed are the estimates of that search, one a trial: the mean of the posterior after the"
+    " last choice, which nobody was shown; the simulated distances are of such estimates as well.",
+}
+"""Which face of a trial is analysed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,11 +69,12 @@ class Facts:
         counted: who counts, in words.
         simulated: whether all of them are simulated, some or none.
         seed: of the random numbers.
-        searches: simulated, for each kind of participant and each search of the study.
+        searches: simulated, for each kind of participant and each search of the study; the fewest of any.
         filters: what the export was restricted by, as its manifest has it.
         restricted: that in words; empty where it is of the whole study.
         unchecked: whether it leaves out attention checks that the study has.
         heads: what people call those heads of the study's own that are in the tables under other names.
+        result: which face of every trial is analysed.
     """
 
     command: str
@@ -84,6 +95,7 @@ class Facts:
     restricted: str = ""
     unchecked: bool = False
     heads: Mapping[str, str] = field(default_factory=dict)
+    result: ResultName = "elite"
 
 
 def methods(context: Context, sections: Sequence[Section], facts: Facts) -> list[str]:
@@ -123,29 +135,40 @@ def _search(context: Context, facts: Facts) -> str:
     return (
         f"Faces were found with EmoGen (Roubtsova et al., 2021; search {', '.join(facts.algorithms)}) on the face model"
         f" {facts.rig} ({len(context.rig.gene_names)} genes, {len(context.rig.shape_names)} blendshapes)."
-        f"{_learning(facts.algorithms)} {' '.join(told)}"
+        f"{_learning(facts)} {' '.join(told)}"
     )
 
 
-def _learning(algorithms: Sequence[str]) -> str:
+def _learning(facts: Facts) -> str:
     """Return what is not the search of the paper, if anything is."""
-    learning = [name for name in algorithms if name.startswith(preference.NAME)]
+    learning = [name for name in facts.algorithms if name.startswith(preference.NAME)]
     if not learning:
         return ""
     return (
         f" The search {', '.join(learning)} makes the next faces not by the genetic algorithm of that paper but by"
         " Bayesian preference learning (Brochu et al., 2007): a posterior over sparse faces, given all choices of a"
-        " trial (Plackett-Luce). The faces analysed are those last chosen as best."
+        f" trial (Plackett-Luce). {ANALYSED[facts.result]}"
     )
 
 
 def _settings(context: Context, key: str) -> str:
     config, recording = context.recording.configs[key], context.recording
-    settings = f"{config.generations} generations and {config.minimum} to {config.maximum} selections in each"
+    most = f"{'at most ' if may_end_early(config) else ''}{config.generations} generations"
+    settings = f"{most} and {config.minimum} to {config.maximum} selections in each{_early(config)}"
     mine = sorted(set(recording.faces.conditions[recording.searches == key].tolist()))
     if len(recording.configs) == 1 or mine == [""]:
         return f"With {settings}"
     return f"In the condition{'s' if mine[1:] else ''} {listed(mine)}, with {settings}"
+
+
+def _early(config: StudyConfig) -> str:
+    """Return when trials end before the most, where they may."""
+    if not may_end_early(config):
+        return ""
+    return (
+        f" (a trial ends with the first generation, from {config.search.least_generations} on, before which the search"
+        f" expects its own estimate to be within a cosine distance of {config.search.stop_at:g} of the face in mind)"
+    )
 
 
 def _versions(facts: Facts) -> str:

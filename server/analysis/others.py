@@ -14,7 +14,7 @@ from ..reporting.figures import Figure, framed
 from .apart import NOISES
 from .rows import NOISE, Span, spans_figure
 from .section import Column, Section, Sheet
-from .simulated import MOST
+from .simulated import MOST, extents, learns
 from .telling import cells, each_or_all, interval, span, untold
 
 if TYPE_CHECKING:
@@ -32,6 +32,7 @@ SIZES = (
     "Simulated groups have one face in mind and as many people as the cell, since the mean of fewer is rougher;"
     f" {MOST} where there are more."
 )
+ESTIMATE = "After the last generation stands the estimate, in the place of one more best face."
 
 
 class Far(NamedTuple):
@@ -75,13 +76,25 @@ def proxies(context: Context) -> Section:
         "What somebody meant is not known; the mean face of the others stands for it (EmoGen 2021, section IV-C).",
         Sheet("proxy", (*context.key_columns, *columns), rows),
         lacks=context.lacking(((one.cell, one.faithful) for one in found), "a distance to the others' mean"),
-        notes=(SIZES,),
+        notes=_sizes(context),
         figures=(spans_figure("proxy", title, spans, "cosine distance", NOISE),) if spans else (),
         methods=(
             *_beyond(context, told),
             *untold([one.faithful for one in found], "distance to the mean of the others"),
         ),
     )  # fmt: skip
+
+
+def _sizes(context: Context) -> tuple[str, ...]:
+    """Return how large simulated groups are, and how many there are where a search learns."""
+    configs = context.recording.configs
+    learning = [one for key, one in extents(configs).items() if learns(configs[key])]
+    shared = " Searches that learn share the time." if len(learning) > 1 else ""
+    return SIZES, *(
+        f"Of a search that learns, which takes long to simulate, there are {extent.minds} groups of a size, of at most"
+        f" {most} people.{shared}"
+        for extent, most in dict.fromkeys(learning)
+    )
 
 
 def _far(context: Context, cell: Cell) -> Far:
@@ -140,7 +153,8 @@ def converging(context: Context) -> Section:
         "convergence", "Do people come nearer to what the others found?",
         "Distance of the best face of every generation to the mean of the other people's finished faces.",
         Sheet("convergence", (*context.key_columns, *columns), rows), lacks=context.lacking(found, "convergence"),
-        notes=(SIZES,), figures=(_courses(context, told),) if told else (),
+        notes=(*_sizes(context), *((ESTIMATE,) if context.recording.result == "estimate" else ())),
+        figures=(_courses(context, told),) if told else (),
         methods=(
             *_nearer(context, told), *untold([one for _, one in found], "convergence"),
         ),

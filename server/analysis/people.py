@@ -37,12 +37,12 @@ MEASURES = {
 
 def naming(context: Context) -> Section | None:
     """Return whether likeness to the own face predicts what people name, or nothing where nobody named a face."""
-    judgements = context.recording.judgements
+    judgements, made = context.recording.judgements, context.recording.chosen.only(repetition=0)
     if not len(judgements.people):
         return None
     parts: list[tuple[str, Match]] = []
     for at, condition in enumerate(context.conditions):
-        own = context.faces.only(condition=condition)
+        own = made.only(condition=condition)
         mine = judgements.take(np.isin(judgements.people, own.people))
         parts.append((condition, match(mine, own, context.rng(6, at))))
     columns = (
@@ -60,7 +60,7 @@ def naming(context: Context) -> Section | None:
         "match", "Do people name what is like their own face?",
         "Whether a face is the more often named as the emotion that it was made for, the more it is like the"
         " face that the"
-        " person made for it. p is the test.",
+        f" person made for it{_chosen(context)}. p is the test.",
         Sheet("match", columns, rows), lacks=tuple(lacks),
         methods=(
             "Whether likeness to one's own face predicts naming was tested by shuffling own faces over participants;"
@@ -69,6 +69,11 @@ def naming(context: Context) -> Section | None:
             *(_matched(name, one) for name, one in parts),
         ),
     )  # fmt: skip
+
+
+def _chosen(context: Context) -> str:
+    """Return what an own face is, where the report is of another result: people know the one they saw."""
+    return "" if context.recording.result == "elite" else ", which is the one last chosen as best here"
 
 
 def _match(one: Match) -> tuple[Value, ...]:
@@ -96,7 +101,7 @@ def searching(context: Context) -> Section:
     found = [
         (cell, name.replace("_", " "), people_mean(values, faces.people))
         for cell, faces in context.cells
-        for name, values in _measured(faces).items()
+        for name, values in _measured(context, faces).items()
     ]
     rows = tuple((*context.key(cell), name, told.count, told.mean, told.low, told.high) for cell, name, told in found)
     columns = (
@@ -128,8 +133,8 @@ def _ranges(found: Sequence[tuple[Cell, str, Interval]]) -> tuple[str, ...]:
     return (f"Means of the measures of search, by cell: {ranges} (process.csv).",)
 
 
-def _measured(faces: Faces) -> dict[str, np.ndarray]:
-    found = [process(path) for path in faces.elites]
+def _measured(context: Context, faces: Faces) -> dict[str, np.ndarray]:
+    found = [process(path) for path in context.ways(faces)]
     return {
         name: np.array([np.nan if value is None else value for value in (getattr(one, name) for one in found)], float)
         for name in MEASURES
@@ -139,7 +144,8 @@ def _measured(faces: Faces) -> dict[str, np.ndarray]:
 def _every_trial(context: Context) -> Sheet:
     recording = context.recording
     measured = [
-        [None if np.isnan(one) else one for one in values.tolist()] for values in _measured(recording.faces).values()
+        [None if np.isnan(one) else one for one in values.tolist()]
+        for values in _measured(context, recording.faces).values()
     ]
     rows = zip(
         recording.trials, recording.faces.people.tolist(), recording.faces.emotions.tolist(), *measured, strict=True

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from emogen_core.analysis.matching import Judgements
     from emogen_core.analysis.recorded import Cell
     from emogen_core.face.rig import Rig
+    from emogen_core.simulation.evaluation.specs import ResultName
 
     from ..services.config import StudyConfig
     from .counted import Counted
@@ -51,6 +52,9 @@ class Recording:
         simulated: how many of them are simulated.
         left_out: participations that do not, by reason.
         judgements: what people named; none without categorise trials.
+        result: what `faces` are of every trial: the face last chosen as best, or the search's own estimate. On the way
+            to an estimate are all best faces, and the estimate last.
+        chosen: the faces last chosen as best, whatever `faces` are: those that people saw and may recognise.
     """
 
     title: str
@@ -68,6 +72,8 @@ class Recording:
     simulated: int
     left_out: Mapping[str, int]
     judgements: Judgements
+    chosen: Faces
+    result: ResultName = "elite"
 
     def searches_of(self, cell: Cell) -> list[str]:
         """Return the keys of the searches by which the faces of a cell were found, that of most faces first."""
@@ -76,7 +82,14 @@ class Recording:
         return [key for key, _ in Counter(self.searches[mine].tolist()).most_common()]
 
 
-def read(export: Export, rig: Rig, kinds: Collection[str] = (PEOPLE,), *, flagged: bool = False) -> Recording:
+def read(
+    export: Export,
+    rig: Rig,
+    kinds: Collection[str] = (PEOPLE,),
+    *,
+    flagged: bool = False,
+    result: ResultName = "elite",
+) -> Recording:
     """Return what an export holds of the people who completed.
 
     Args:
@@ -84,11 +97,13 @@ def read(export: Export, rig: Rig, kinds: Collection[str] = (PEOPLE,), *, flagge
         rig: the face model that it has to be of.
         kinds: who counts: people, pilot, simulated.
         flagged: whether those who failed an attention check count as well.
+        result: which face of every trial is analysed.
 
     Raises:
         EmogenClientError: the export lacks a file, or one is not the one that its manifest tells of.
         NotFoundError: it was recorded on another face model.
-        InvalidError: a configuration is none, or not the one that somebody's row names; or nobody counts.
+        InvalidError: a configuration is none, or not the one that somebody's row names; or nobody counts; or estimates
+            are asked for and a trial has none.
     """
     who = counted(export, rig, kinds, flagged=flagged)
     trials = finished(export, who)
@@ -96,9 +111,11 @@ def read(export: Export, rig: Rig, kinds: Collection[str] = (PEOPLE,), *, flagge
         raise _nothing(kinds, who)
     makers = _column(trials, "participation")
     searches = {name: search_key(who.configs[name]) for name in set(makers)}
+    chosen = _faces(export, rig, trials, who)
     return Recording(
         title=str(export.manifest["title"]), study=str(export.manifest["study"]),
-        faces=_faces(export, rig, trials, who), face_ids=_column(trials, "final_face"),
+        faces=chosen if result == "elite" else _estimated(export, rig, trials, who, chosen), chosen=chosen,
+        face_ids=_column(trials, "final_face") if result == "elite" else ("",) * len(trials), result=result,
         trials=_column(trials, "trial"), seeds=_column(trials, "seed"),
         searches=np.array([searches[name] for name in makers]),
         configs={searches[name]: who.configs[name] for name in makers},
@@ -126,6 +143,32 @@ def _faces(export: Export, rig: Rig, trials: Sequence[Row], who: Counted) -> Fac
         repetitions=repetitions(trials, who.configs), genes=shown.genes(final), weights=shown.weights(final),
         ratings=ratings(export, trials), elites=tuple(map(shown.weights, ways)),
     )  # fmt: skip
+
+
+def _estimated(export: Export, rig: Rig, trials: Sequence[Row], who: Counted, chosen: Faces) -> Faces:
+    """Return the estimates of trials, each after the best faces on the way to it.
+
+    Raises:
+        InvalidError: a trial has none.
+    """
+    names = _column(trials, "trial")
+    if "estimates" not in export.tables:  # of a release that had none
+        raise _no_estimate(0, trials, who)
+    found = Shown(export, rig, names, "estimates", "trial")
+    there = sum(name in found for name in names)
+    if there < len(names):
+        raise _no_estimate(there, trials, who)
+    weights = found.weights(names)
+    ways = (np.vstack([way, one]) if len(way) else way for way, one in zip(chosen.elites, weights, strict=True))
+    return replace(chosen, genes=found.genes(names), weights=weights, elites=tuple(ways))
+
+
+def _no_estimate(found: int, trials: Sequence[Row], who: Counted) -> InvalidError:
+    return InvalidError(
+        f"The search's own estimates cannot be analysed: expected one for each of {len(trials)} finished faces, got"
+        f" {found} (searches: {', '.join(_different(who, 'algorithm'))}; only preference makes any). Analyse the faces"
+        " chosen as best (--result elite), or an export of those conditions alone whose strategy is preference."
+    )
 
 
 def _column(rows: Sequence[Row], name: str) -> tuple[str, ...]:

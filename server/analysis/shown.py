@@ -1,4 +1,4 @@
-"""Faces that participants were shown, by their id: only those that are asked for become numbers."""
+"""Faces of an export by their id, or estimates by their trial: only those that are asked for become numbers."""
 
 from __future__ import annotations
 
@@ -28,14 +28,16 @@ class Shown:
     Args:
         export: what was recorded.
         rig: the face model.
-        wanted: ids of the faces.
+        wanted: ids of the faces, or of trials.
+        name: of the table, faces or estimates.
+        key: the column of its ids.
     """
 
-    def __init__(self, export: Export, rig: Rig, wanted: Iterable[str]) -> None:
-        table = export.arrow("faces")
-        table = table.filter(pc.is_in(table["face"], pa.array(sorted(set(wanted)), pa.string())))
+    def __init__(self, export: Export, rig: Rig, wanted: Iterable[str], name: str = "faces", key: str = "face") -> None:
+        table = export.arrow(name)
+        table = table.filter(pc.is_in(table[key], pa.array(sorted(set(wanted)), pa.string())))
         self._rig, self._table = rig, table
-        self._place = {face: at for at, face in enumerate(table["face"].to_pylist())}
+        self._place = {one: at for at, one in enumerate(table[key].to_pylist())}
         self._weights = matrix(table, "weight_", rig.shape_names)
 
     def genes(self, faces: Sequence[str]) -> Floats:
@@ -45,6 +47,10 @@ class Shown:
             InvalidError: one is not in the table.
         """
         return matrix(self._table.take(self._at(faces)), "gene_", self._rig.gene_names)
+
+    def __contains__(self, face: object) -> bool:
+        """Return whether one is in the table."""
+        return face in self._place
 
     def weights(self, faces: Sequence[str]) -> Floats:
         """Return the (n, K) weights of faces.

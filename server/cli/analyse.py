@@ -12,7 +12,7 @@ from threadpoolctl import threadpool_limits
 
 from emogen_client import EmogenClientError
 from emogen_core.errors import RenderingError
-from emogen_core.simulation.evaluation.threshold import SEARCHES
+from emogen_core.simulation.evaluation.specs import ResultName
 
 from ..analysis.context import Context
 from ..analysis.counted import PEOPLE, PILOT, SIMULATED
@@ -23,7 +23,7 @@ from ..analysis.methods import Facts, methods
 from ..analysis.reading import read
 from ..analysis.restricted import filters, restricted, unchecked
 from ..analysis.sections import sections
-from ..analysis.simulated import simulate
+from ..analysis.simulated import extents, simulate
 from ..analysis.telling import counted
 from ..release import release
 from ..services.faces.correction import Correction
@@ -33,7 +33,7 @@ from .threshold import Seed
 from .wearing import RigFile, Wearing, worn
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     import numpy as np
     from numpy.typing import NDArray
@@ -51,21 +51,26 @@ Out = Annotated[Path, typer.Option("--out", help="Folder to write to.")]
 Pilot = Annotated[bool, typer.Option("--pilot", help="Count people of the pilot phase as well.")]
 Simulated = Annotated[bool, typer.Option("--simulated", help="Count simulated participants as well.")]
 Flagged = Annotated[bool, typer.Option("--flagged", help="Count people who failed an attention check as well.")]
+Result = Annotated[
+    ResultName,
+    typer.Option("--result", help="Which face of a trial: the one last chosen as best, or the search's own estimate."),
+]
 Json = Annotated[bool, typer.Option("--json", help="Print the numbers as JSON.")]
 
 
 @app.command()
 def analyse(  # noqa: PLR0913, PLR0917 - typer reads the options from the signature
     export: From, out: Out = Path("analysis"), pilot: Pilot = False, simulated: Simulated = False,
-    flagged: Flagged = False, rig: RigFile = None, seed: Seed = 1, json_: Json = False,
+    flagged: Flagged = False, result: Result = "elite", rig: RigFile = None, seed: Seed = 1, json_: Json = False,
 ) -> None:  # fmt: skip
     """Analyse the finished faces of an export: report.html, a CSV file a table, and methods.txt."""
     kinds = (PEOPLE, *((PILOT,) if pilot else ()), *((SIMULATED,) if simulated else ()))
     # The products are small: threads of the algebra library only get in each other's way.
     with plainly(), threadpool_limits(1), _opened(export, rig) as (kept, wearing):
-        recording = read(kept, wearing.rig, kinds, flagged=flagged)
+        recording = read(kept, wearing.rig, kinds, flagged=flagged, result=result)
         folder = made_folder(out)
-        facts = _facts(kept, recording, wearing.rig, kinds, _command(export, wearing, seed, kinds, flagged=flagged))
+        options = [*(["--flagged"] if flagged else []), *(["--result estimate"] if result == "estimate" else [])]
+        facts = _facts(kept, recording, wearing.rig, kinds, _command(export, wearing, seed, kinds, options))
         with _studio(wearing, recording) as studio:
             context = _context(recording, wearing, facts.seed, studio)
             made = _sections(context)
@@ -86,9 +91,9 @@ def _opened(path: Path, rig: Path | None) -> Iterator[tuple[Export, Wearing]]:
         raise stop(str(error)) from error
 
 
-def _command(path: Path, wearing: Wearing, seed: int, kinds: tuple[str, ...], *, flagged: bool) -> tuple[str, int]:
+def _command(path: Path, wearing: Wearing, seed: int, kinds: tuple[str, ...], more: Sequence[str]) -> tuple[str, int]:
     """Return what makes the same report again, wherever the export lies and the report goes, and its seed."""
-    options = [*(f"--{kind}" for kind in kinds if kind != PEOPLE), *(["--flagged"] if flagged else [])]
+    options = [*(f"--{kind}" for kind in kinds if kind != PEOPLE), *more]
     options += [f"--rig {name}.rig" for name in wearing.models.models]
     return " ".join(["emogen analyse", path.name, *options, f"--seed {seed}"]), seed
 
@@ -100,7 +105,8 @@ def _facts(kept: Export, recording: Recording, rig: Rig, kinds: tuple[str, ...],
         rig_hash=rig.hash, configurations=recording.config_hashes, algorithms=recording.algorithms,
         simulated=_share(recording.simulated, recording.counted),
         counted=_counted(recording.simulated, recording.counted, kinds),
-        seed=command[1], searches=SEARCHES, filters=filters(kept.manifest),
+        seed=command[1], searches=min(extent.searches for extent, _ in extents(recording.configs).values()),
+        result=recording.result, filters=filters(kept.manifest),
         restricted=restricted(filters(kept.manifest)),
         unchecked=unchecked(filters(kept.manifest), recording.studies),
         heads=head_names(recording.studies, sorted(set(recording.faces.identities.tolist()))),

@@ -19,6 +19,7 @@ from .bench_landmarks import bench_landmarks, landmarks_text
 from .bench_monitor import bench_monitor
 from .bench_packing import bench_packing
 from .bench_simulate import bench_simulate
+from .bench_strategies import bench_strategies
 from .bench_transfer import bench_transfer
 from .chromium import chromium
 from .common import Json, load_settings, plainly, report_text, rig_of
@@ -64,6 +65,16 @@ def simulate(
     """Measure simulated searches by cosine on the bundled face model, on one core."""
     with threadpool_limits(1):
         _print(bench_simulate(repetitions, rounds), json_)
+
+
+@app.command("strategies")
+def strategies(
+    trials: Annotated[int, typer.Option(min=1, help="Trials of each strategy, ten generations each.")] = 40,
+    json_: Json = False,
+) -> None:
+    """Measure how long each strategy takes from a choice to the next ten faces, on one core, and its memory."""
+    with threadpool_limits(1):
+        _print(bench_strategies(trials), json_)
 
 
 @app.command("analysis")

@@ -10,13 +10,11 @@ meanwhile, rows a second of the processor tell more.
 from __future__ import annotations
 
 import os
-import resource
 import time
 import uuid
 from concurrent.futures import ProcessPoolExecutor
 from datetime import UTC, datetime, timedelta
 from multiprocessing import get_context
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
@@ -32,6 +30,7 @@ from ..services.trials.evolution import Evolution
 from ..store.engine import Database
 from ..store.fill import insert_rows
 from ..store.runs_tables import ChoiceRecord, Face, Generation, Participation, Trial
+from .common import peak_mib
 from .filled import SETS, choice_row, face_row, generation_row, participation_row, trial_row
 
 if TYPE_CHECKING:
@@ -77,7 +76,7 @@ def _stream(url: str, study: str, form: Any, packed: bool) -> Row:
         os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
     exports = Exports(Database(url))
     exports.overview(study)
-    idle, begun, worked = _peak(), time.perf_counter(), time.process_time()
+    idle, begun, worked = peak_mib(), time.perf_counter(), time.process_time()
     download = exports.zip(study, form) if packed else exports.table(study, "faces", form)
     size = sum(map(len, download.chunks))
     seconds, worked = time.perf_counter() - begun, time.process_time() - worked
@@ -88,17 +87,8 @@ def _stream(url: str, study: str, form: Any, packed: bool) -> Row:
         "rows_per_cpu_second": round(rows / worked),
         "seconds": round(seconds, 1),
         "mib": round(size / MIB, 1),
-        "memory_over_idle_mib": round(_peak() - idle, 1),
+        "memory_over_idle_mib": round(peak_mib() - idle, 1),
     }
-
-
-def _peak() -> float:
-    """Return the most memory that this process has had since it was started, in MiB."""
-    status = Path("/proc/self/status")
-    if not status.exists():
-        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-    (line,) = (line for line in status.read_text().splitlines() if line.startswith("VmHWM:"))
-    return int(line.split()[1]) / 1024
 
 
 def _fill(house: House, study: str, people: int) -> None:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import resource
 import sys
 from contextlib import contextmanager
+from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -20,7 +22,6 @@ from ..settings import Settings
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
-    from pathlib import Path
 
     from emogen_core.face.rig import Rig
 
@@ -100,3 +101,12 @@ def stop(message: str) -> typer.Exit:
 
 def _set(given: dict[str, object]) -> dict[str, object]:
     return {name: value for name, value in given.items() if value is not None}
+
+
+def peak_mib() -> float:
+    """Return the most memory that this process has had since it was started, in MiB."""
+    status = Path("/proc/self/status")
+    if not status.exists():
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    (line,) = (line for line in status.read_text().splitlines() if line.startswith("VmHWM:"))
+    return int(line.split()[1]) / 1024

@@ -34,8 +34,8 @@ def trial_row(person: Row, position: int) -> Row:
     return {
         "id": f"{person['id']}-{position}", "participation_id": person["id"], "position": position, "block": "evolve",
         "kind": "evolve", "practice": False, "emotion": "happy", "identity": person["head"], "seed": "0", "attempt": 0,
-        "generation": 10, "state": None, "started_at": person["arrived_at"], "ended_at": person["ended_at"],
-        "final_face_id": None,
+        "generation": 10, "last_generation": None, "state": None, "started_at": person["arrived_at"],
+        "ended_at": person["ended_at"], "final_face_id": None,
     }  # fmt: skip
 
 

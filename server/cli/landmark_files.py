@@ -49,11 +49,19 @@ class Face:
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """All frames on one head, and plain values that say how they came about."""
+    """All frames on one head.
+
+    Attributes:
+        head: whose they are.
+        faces: one a frame.
+        facts: plain values that say how they came about.
+        known_as: what a study calls the head.
+    """
 
     head: DrivenHead
     faces: tuple[Face, ...]
     facts: dict[str, Any]
+    known_as: str
 
     @cached_property
     def genes(self) -> Floats:
@@ -98,7 +106,7 @@ class Fit:
         plain = {
             "title": "Fitted faces",
             "emotions": [{"adjective": "happy", "noun": "happiness"}],
-            "identities": [self.head.identity],
+            "identities": [self.known_as],
             "search": {
                 "initialisation": "fixed",
                 **({"lateral": True} if sideways else {}),

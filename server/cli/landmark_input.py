@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 import numpy as np
 
 from emogen_core.errors import InvalidInputError, expected
-from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.landmarks.arkit import core_weights, unserved
 from emogen_core.landmarks.bank import bank_genes, make_bank
 from emogen_core.landmarks.coefficient_file import Recording, read_mediapipe, read_recording
@@ -18,6 +17,7 @@ from emogen_core.landmarks.rows import read_rows
 from emogen_core.landmarks.solvers import make_solver
 from emogen_core.rigs.landmark_head import driven_head
 
+from .common import rig_of
 from .landmark_files import Face, Fit
 
 if TYPE_CHECKING:
@@ -37,6 +37,7 @@ class Asked:
     method: str
     regions: int
     emphasis: float
+    rig: Path | None
     identity: str
     seed: int
     frame: str
@@ -58,7 +59,7 @@ def fit_file(file: Path, asked: Asked) -> Fit:
         InvalidInputError: no such file, a file or option that is not understood, or points that no face has.
     """
     text = _text(file)
-    head = driven_head(load_bundled_rig(), asked.identity)
+    head = driven_head(rig_of(asked.rig), asked.identity)
     if text.lstrip("\ufeff \r\n\t")[:1] in {"{", "["}:
         return _mapped(head, read_mediapipe(text), asked)
     header, rows = read_rows(text)
@@ -87,7 +88,12 @@ def _fitted(head: DrivenHead, frames: Sequence[PointFrame], asked: Asked) -> Fit
         told = {"fitness": found.fitness, "point_error_mm": found.point_error, "clipped": found.clipped}
         faces.append(Face(frame.name, found.core, {name: round(value, 4) for name, value in told.items()}))
     facts = {"method": asked.method, "regions": asked.regions, "emphasis": asked.emphasis, "seed": asked.seed}
-    return Fit(head, tuple(faces), facts)
+    return Fit(head, tuple(faces), facts, _known_as(head, asked))
+
+
+def _known_as(head: DrivenHead, asked: Asked) -> str:
+    """Return what a study calls a head: of another face model, with the model's name, which is that of its file."""
+    return f"{asked.rig.stem}:{head.identity}" if asked.rig else head.identity
 
 
 def _mapped(head: DrivenHead, recording: Recording, asked: Asked) -> Fit:
@@ -102,9 +108,9 @@ def _mapped(head: DrivenHead, recording: Recording, asked: Asked) -> Fit:
         "emphasis": asked.emphasis,
         "not_known": list(recording.unknown),
         "not_in_the_file": list(recording.missing),
-        "not_on_the_rig": unserved(recording.frames[0].values),
+        "not_on_the_rig": unserved(head.rig, recording.frames[0].values),
     }
-    return Fit(head, tuple(faces), facts)
+    return Fit(head, tuple(faces), facts, _known_as(head, asked))
 
 
 def _chosen(frames: Sequence[AnyFrame], wanted: str) -> Sequence[AnyFrame]:

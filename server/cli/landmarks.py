@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from contextlib import closing
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -10,9 +11,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from emogen_core.errors import InvalidInputError, expected
-from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.face.container import check_writable
-from emogen_core.landmarks.points import feature_points
+from emogen_core.rendering.setup import load_dressed, renderer_for
 
 from ..reporting.files import replace
 from .common import Backend, Json, plainly, stop
@@ -20,10 +20,20 @@ from .landmark_files import SINGLE, Fit
 from .landmark_input import Asked, fit_file
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+    from types import ModuleType
+
     from PIL import Image
+
+    from emogen_core.landmarks.head import DrivenHead
+    from emogen_core.rendering.look import Look
+    from emogen_core.rendering.protocol import Renderer
 
 app = typer.Typer(help="Feature points and blendshape coefficients to weights of the face.", no_args_is_help=True)
 
+RigFile = Annotated[
+    Path | None, typer.Option("--rig", help="A rig file; the bundled rig if left out. Its mesh may be another.")
+]
 File = Annotated[Path, typer.Argument(help="Motions or positions of feature points, or coefficients of a phone.")]
 Method = Annotated[str, typer.Option(help="ga-line, ga-midpoint, ga-blx, nnls, nnls-weighted or rig.")]
 Regions = Annotated[int, typer.Option(help="1, 2 (left, right) or 4: solved apart and blended.")]
@@ -46,6 +56,7 @@ def fit(  # noqa: PLR0913 - one option a parameter
     method: Method = "rig",
     regions: Regions = 1,
     emphasis: Emphasis = 1.0,
+    rig: RigFile = None,
     identity: Identity = "",
     seed: Seed = 0,
     frame: Frame = "all",
@@ -55,17 +66,23 @@ def fit(  # noqa: PLR0913 - one option a parameter
 ) -> None:
     """Turn motions of feature points, or the coefficients of a phone, into weights of genes and shapes."""
     with plainly():
-        found = fit_file(file, Asked(method, regions, emphasis, identity, seed, frame, unit))
+        found = fit_file(file, Asked(method, regions, emphasis, rig, identity, seed, frame, unit))
         _write(found, out)
     typer.echo(json.dumps(found.document(), indent=2, allow_nan=False) if json_ else _sentences(found))
 
 
 @app.command("points")
-def points(identity: Identity = "", out: Picture = None, backend: Backend = "pyrender", json_: Json = False) -> None:
+def points(
+    rig: RigFile = None, identity: Identity = "", out: Picture = None, backend: Backend = "pyrender",
+    json_: Json = False,
+) -> None:  # fmt: skip
     """List the 56 feature points, and draw where they are on a head."""
     with plainly():
-        known = feature_points(load_bundled_rig())
-        _draw("landmark_sheet", "points_picture", identity, out, backend)
+        model, look = load_dressed(rig)
+        known = _heads().feature_points(model)
+        head = _heads().driven_head(model, identity, known)
+        sheet = import_module("emogen_core.rigs.landmark_sheet")
+        _draw(lambda renderer: sheet.points_picture(renderer, head, look), head, look, out, backend)
     rows = [{"name": point.name, "meaning": point.meaning, "vertex": point.vertex} for point in known]
     told = "\n".join(f"{row['name']:5} {row['vertex']:6} {row['meaning']}" for row in rows)
     typer.echo(json.dumps(rows, indent=2) if json_ else told)
@@ -75,23 +92,29 @@ def points(identity: Identity = "", out: Picture = None, backend: Backend = "pyr
 def seam(identity: Identity = "", out: Picture = None, backend: Backend = "pyrender", json_: Json = False) -> None:
     """Measure, and draw, how regions of the face meet: cut apart beside blended."""
     with plainly():
-        head = import_module("emogen_core.rigs.landmark_head").driven_head(load_bundled_rig(), identity)
-        rows = import_module("emogen_core.rigs.seam_sheet").seam_report(head)
-        _draw("seam_sheet", "seam_picture", identity, out, backend)
+        model, look = load_dressed()
+        head = _heads().driven_head(model, identity)
+        sheet = import_module("emogen_core.rigs.seam_sheet")
+        rows = sheet.seam_report(head)
+        _draw(lambda renderer: sheet.seam_picture(renderer, head), head, look, out, backend)
     told = "\n".join(", ".join(f"{name}: {value}" for name, value in row.items()) for row in rows)
     typer.echo(json.dumps(rows, indent=2) if json_ else told)
 
 
-def _draw(module: str, picture: str, identity: str, out: Path | None, backend: str) -> None:
+def _heads() -> ModuleType:
+    return import_module("emogen_core.rigs.landmark_head")
+
+
+def _draw(
+    picture: Callable[[Renderer], Image.Image], head: DrivenHead, look: Look, out: Path | None, backend: str
+) -> None:
     if out is None:
         return
     if out.suffix not in _PICTURES:
         raise InvalidInputError(f"--out: {expected(f'a file that ends in {_PICTURES}', str(out))}")
     check_writable(out)
-    renderer, rig = import_module("emogen_core.rendering.setup").make_renderer(backend)
-    head = import_module("emogen_core.rigs.landmark_head").driven_head(rig, identity)
-    drawn: Image.Image = getattr(import_module(f"emogen_core.rigs.{module}"), picture)(renderer, head)
-    renderer.close()
+    with closing(renderer_for(backend, head.rig, look)) as renderer:
+        drawn = picture(renderer)
     drawn.save(out, quality=86)
 
 

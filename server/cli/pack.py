@@ -12,7 +12,7 @@ import typer
 from threadpoolctl import threadpool_limits
 
 from emogen_core.errors import RenderingError
-from emogen_core.rendering.setup import BACKENDS
+from emogen_core.rendering.setup import BACKENDS, load_dressed
 from emogen_core.rigs.target_head import target_head
 from emogen_core.transfer.packing.pack import ORDERS, Options
 
@@ -21,12 +21,13 @@ from ..packing.files import PAGE, write
 from ..packing.making import make
 from ..packing.studio import studio
 from ..release import release
-from .common import Json, made_folder, plainly, rig_of, unwritable
+from .common import Json, made_folder, plainly, unwritable
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from emogen_core.face.rig import Rig
+    from emogen_core.rendering.look import Look
 
     from ..packing.studio import Studio
 
@@ -55,9 +56,10 @@ def pack(  # noqa: PLR0913, PLR0917 - typer reads the options from the signature
     """Choose as few expressions as possible that show every shape of a rig, and draw a card of each."""
     options = Options(mu, alpha, beta, most, symmetry, poseability, order)
     with plainly(), threadpool_limits(1):
-        model, head = target_head(rig_of(rig), target)
+        own, look = load_dressed(rig)
+        model, head = target_head(own, target)
         made = make(model, head, options)
-        with _studio(model, head, backend) as draws:
+        with _studio(model, look, head, backend) as draws:
             folder = made_folder(out)
             cards = made.drawn(draws) if draws else made.cards
         facts = Facts(_command(rig, options, target), release(), model.name, model.hash, head)
@@ -70,10 +72,10 @@ def pack(  # noqa: PLR0913, PLR0917 - typer reads the options from the signature
 
 
 @contextmanager
-def _studio(rig: Rig, head: str, backend: str) -> Iterator[Studio | None]:
+def _studio(rig: Rig, look: Look, head: str, backend: str) -> Iterator[Studio | None]:
     """Open what draws; without OpenGL there is a sheet all the same, without faces."""
     try:
-        opened = studio(rig, head, backend)
+        opened = studio(rig, look, head, backend)
     except RenderingError as error:
         typer.echo(f"The cards will have no faces: {error}", err=True)
         yield None

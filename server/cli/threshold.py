@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from emogen_core.face.bundled import load_bundled_rig
-from emogen_core.simulation.evaluation.threshold import LEARNING_SEARCHES, SEARCHES, threshold
+from emogen_core.simulation.evaluation.threshold import LEARNING_SEARCHES, SEARCHES, saving, threshold
 
 from ..reporting.noise import laboratory, search_key
+from ..services.trials.evolve import may_end_early
 from .common import plainly
 from .housed import read_file
 
@@ -39,14 +40,16 @@ def threshold_(study: File, searches: Searches = None, seed: Seed = 1, json_: Js
     with plainly():
         rig = load_bundled_rig()
         found = [
-            (names, threshold(laboratory(rig, config, seed), searches)) for names, config in _searches(read_file(study))
+            (names, config, threshold(laboratory(rig, config, seed), searches))
+            for names, config in _searches(read_file(study))
         ]
     if json_:
-        told = [{"conditions": names, **asdict(one)} for names, one in found]
+        told = [{"conditions": names, **asdict(one)} for names, _, one in found]
         typer.echo(json.dumps({"rig": rig.hash, "seed": seed, "searches": told}, indent=2, allow_nan=False))
         return
-    for names, one in found:
-        typer.echo("\n".join([*([f"{', '.join(names)}:"] if len(found) > 1 else []), *_sentences(one)]))
+    for names, config, one in found:
+        who = [f"{', '.join(names)}:"] if len(found) > 1 else []
+        typer.echo("\n".join([*who, *_sentences(one), *_early(config, one)]))
 
 
 def _searches(config: StudyConfig) -> list[tuple[list[str], StudyConfig]]:
@@ -55,6 +58,18 @@ def _searches(config: StudyConfig) -> list[tuple[list[str], StudyConfig]]:
     for name, own in zip([one.name for one in config.conditions] or [""], config.whole, strict=True):
         made.setdefault(search_key(own), ([], own))[0].append(name)
     return list(made.values())
+
+
+def _early(config: StudyConfig, found: Threshold) -> list[str]:
+    """Return what ending early saves, where trials may."""
+    if not may_end_early(config):
+        return []
+    ends, noisy = found.faithful.generations, found.noisy.generations
+    return [
+        f"Trials end with generation {ends:.1f} of at most {config.generations} on average, which saves"
+        f" {saving(ends, config.generations):.0f} % of the choices; with a noise of .1 with generation {noisy:.1f},"
+        f" {saving(noisy, config.generations):.0f} %."
+    ]
 
 
 def _sentences(found: Threshold) -> list[str]:
@@ -66,7 +81,7 @@ def _sentences(found: Threshold) -> list[str]:
         f"With a noise of .1 on every judged distance, which marks the nearest face as best in"
         f" {100 * noisy.right:.0f} % of choices, it is {noisy.error}, below {noisy.error.most:.3f},"
         f" and {noisy.apart}, below {noisy.apart.most:.3f}.",
-        f"Choosing at random ends {found.random.error.mean:.3f} away; a face for which nobody answers is"
-        f" {found.no_answer:.3f} away.",
+        f"Choosing at random ends {found.random.error.mean:.3f} away; with no answer at all, the face whose"
+        f" genes are all the same is {found.no_answer:.3f} away.",
         f"For the two faces of the paper's threshold (0.230 ± 0.066 there) it is {found.paper}.",
     ]

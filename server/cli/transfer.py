@@ -109,18 +109,20 @@ def _target(rig: Rig, target: str, folder: Path | None) -> Target:
     """Return the head and its expressions in the rig's frame."""
     making, heads = (import_module(f"emogen_core.rigs.{name}") for name in ("transferred", "target_head"))
     weights = read_weights(folder, rig) if folder else {}
-    meshes = [heads.read_positions(folder / f"{one}.obj") for one in weights] if folder else []
+    own = target in rig.neutrals
+    if not own and not Path(target).is_file():
+        raise InvalidInputError(f"target: {expected(f'one of {list(rig.identities)} or an OBJ file', target)}")
+    rest = None if own else heads.read_mesh(Path(target))
+    meshes = [heads.read_mesh(folder / f"{one}.obj", rest).vertices for one in weights] if folder else []
     shape = rig.neutral(rig.identities[0]).shape
     for one, mesh in zip(weights, meshes, strict=True):
         if mesh.shape != shape:
             raise InvalidInputError(f"{one}.obj: {expected(f'{shape[0]} vertices', len(mesh))}; it has to be the mesh")
     shown = np.array(meshes).reshape(-1, *shape), np.array([*weights.values()]).reshape(-1, len(rig.core_shapes))
-    if target in rig.neutrals:
-        own: Target = making.Target(rig.neutral(target).astype(np.float64), *shown)
-        return own
-    if not Path(target).is_file():
-        raise InvalidInputError(f"target: {expected(f'one of {list(rig.identities)} or an OBJ file', target)}")
-    found: Target = making.posed(rig, heads.read_positions(Path(target)), *shown)
+    if rest is None:
+        worn: Target = making.Target(rig.neutral(target).astype(np.float64), *shown)
+        return worn
+    found: Target = making.posed(rig, rest.vertices, *shown)
     return found
 
 

@@ -11,7 +11,7 @@ from emogen_core.correctives.pipeline import core_face_weights
 from emogen_core.face.evaluate import vertices
 from emogen_core.rendering.heat import HeatArtist
 from emogen_core.rendering.protocol import RenderSettings
-from emogen_core.rendering.setup import look_for, renderer_for
+from emogen_core.rendering.setup import renderer_for
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from emogen_core.face.rig import Rig
+    from emogen_core.rendering.look import Look
     from emogen_core.rendering.protocol import Renderer
     from emogen_core.transfer.packing.pack import Packing
 
@@ -71,13 +72,12 @@ class Studio:
         self._front.close()
 
 
-def studio(rig: Rig, identity: str, backend: str) -> Studio:
+def studio(rig: Rig, look: Look, identity: str, backend: str) -> Studio:
     """Return a studio with its renderers, to be closed.
 
     Raises:
         MissingGLError: ``pyrender`` on a machine without OpenGL.
     """
-    look = look_for(rig)
     front = renderer_for(backend, rig, look)
     turned = renderer_for(backend, rig, look, TURN)
     return Studio(rig, identity, front, turned)

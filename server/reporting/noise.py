@@ -11,6 +11,7 @@ from ..services.trials.evolution import simulated
 
 if TYPE_CHECKING:
     from emogen_core.face.rig import Rig
+    from emogen_core.simulation.evaluation.specs import ResultName
 
     from ..services.config import StudyConfig
 
@@ -20,11 +21,12 @@ def search_key(config: StudyConfig) -> str:
     return json.dumps([config.search.model_dump(mode="json"), config.generations, config.minimum, config.maximum])
 
 
-def laboratory(rig: Rig, config: StudyConfig, seed: int) -> Laboratory:
-    """Return where a study's own search is simulated.
+def laboratory(rig: Rig, config: StudyConfig, seed: int, result: ResultName = "elite") -> Laboratory:
+    """Return where a study's own search is simulated, and with which result of it.
 
     Raises:
         InvalidError: the study's options do not fit the rig.
     """
     params, drawn = simulated(rig, config)
-    return Laboratory(rig, rig.identities[0], seed, params, drawn=drawn, algorithm=config.search.strategy)
+    how = config.search.strategy
+    return Laboratory(rig, rig.identities[0], seed, params, drawn=drawn, algorithm=how, result=result)

@@ -23,6 +23,8 @@ class Analysis(Base):
     study_id: Mapped[str] = mapped_column(ForeignKey("studies.id"), index=True)
     who: Mapped[str]
     """Who counts: people, pilot, simulated, all."""
+    result: Mapped[str] = mapped_column(server_default="elite")
+    """Which face of a trial is analysed: elite, estimate."""
     revision: Mapped[int] = mapped_column(BigInteger)
     """Of the data when it was begun: server/store/revisions.py."""
     begun_at: Mapped[datetime]

@@ -80,8 +80,8 @@ def _participations() -> Select[*tuple[Any, ...]]:
 def _trials() -> Select[*tuple[Any, ...]]:
     columns = (
         *_WHO, *_TRIAL, Trial.position, Trial.kind, Trial.identity, Trial.seed, Trial.attempt.label("attempts"),
-        Trial.generation.label("generations"), Trial.final_face_id.label("final_face"), Trial.started_at,
-        Trial.ended_at,
+        Trial.generation.label("generations"), Trial.last_generation.is_not(None).label("ended_early"),
+        Trial.final_face_id.label("final_face"), Trial.started_at, Trial.ended_at,
     )  # fmt: skip
     return (
         select(*columns)

@@ -62,6 +62,7 @@ class At(NamedTuple):
     participation: str
     position: int
     generation: int
+    last_generation: int | None
 
 
 _DEVICE = Participation.device["kind"].as_string()
@@ -104,7 +105,7 @@ def choices_of(tx: Tx, ids: Collection[str], since: datetime | None = None) -> S
 def trials_at(tx: Tx, ids: Collection[str]) -> Sequence[At]:
     """Return where in their present trial participations are."""
     query = (
-        select(Participation.id, Trial.position, Trial.generation)
+        select(Participation.id, Trial.position, Trial.generation, Trial.last_generation)
         .join(Trial, and_(Trial.participation_id == Participation.id, Trial.position == Participation.position))
         .where(Participation.id.in_(ids))
     )

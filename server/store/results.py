@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from sqlalchemy import and_, func, select
 
-from .runs_tables import ChoiceRecord, Face, Generation, Participation, Rating, Response, Stimulus, Trial
+from .runs_tables import ChoiceRecord, Estimate, Face, Generation, Participation, Rating, Response, Stimulus, Trial
 from .studies_tables import StudyVersion
 
 if TYPE_CHECKING:
@@ -58,6 +58,12 @@ def best_faces(tx: Tx, study_id: str, block: str) -> Sequence[tuple[str, bytes]]
         .order_by(Trial.id, Generation.number)
     )
     return [(row[0], row[1]) for row in tx.execute(query)]
+
+
+def has_estimates(tx: Tx, study_id: str) -> bool:
+    """Return whether the search of anybody who completed a study made estimates of its own."""
+    query = _of_trials(select(Estimate.trial_id), study_id).join(Estimate, Estimate.trial_id == Trial.id)
+    return tx.execute(query.limit(1)).first() is not None
 
 
 def ratings(tx: Tx, study_id: str) -> Sequence[tuple[str, str, int]]:

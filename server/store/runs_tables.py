@@ -60,6 +60,8 @@ class Trial(Base):
     """One task of a participation. `attempt` and `generation` name the population that is on the screen.
 
     In a trial without generations, `generation` counts its items. `emotion` is empty where a trial has several.
+    `last_generation` is the one on the screen where it is the last since enough is known of the face in mind; empty
+    where the study's most is the last one.
     """
 
     __tablename__ = "trials"
@@ -76,6 +78,7 @@ class Trial(Base):
     seed: Mapped[str]
     attempt: Mapped[int]
     generation: Mapped[int]
+    last_generation: Mapped[int | None]
     state: Mapped[str | None]
     started_at: Mapped[datetime | None]
     ended_at: Mapped[datetime | None]

@@ -1,22 +1,14 @@
-// The editor of heads: fields beside the sliders, and a portrait that follows them. Without this script the form works
-// by its buttons.
+// The editor of heads of the bundled face model: beside the sliders, shares of ancestry, and a look that follows the head
+// until it has one of its own.
 
-import { send as post, show } from "./drawing.js";
-import { begin, check, follow, reset, tell } from "./sliders.js";
+import { ask, edit, say } from "./head-editor.js";
+import { tell } from "./sliders.js";
 
-const PAUSE = 250;
 const form = document.querySelector("#editor");
-const portrait = document.querySelector("#portrait");
-const status = document.querySelector("#status");
 const own = document.querySelector("#own_look");
+const copying = document.querySelector("#copy");
 
-let timer = 0;
-let asking = null;
 let painted = null;
-
-function ranges() {
-  return form.querySelectorAll(".control > [name]");
-}
 
 function tellShares() {
   const amounts = ["african", "asian", "caucasian"].map((name) => [name, Number(form.elements[name].value)]);
@@ -25,49 +17,8 @@ function tellShares() {
   document.querySelector("#shares").textContent = total > 0 ? words.join(", ") : "Set at least one above 0.";
 }
 
-function say(words, wrong = false) {
-  status.textContent = words;
-  status.classList.toggle("wrong", wrong);
-}
-
-/** Draw once the sliders have rested; a change while drawing starts anew. */
-function changed() {
-  clearTimeout(timer);
-  asking?.abort();
-  timer = setTimeout(draw, PAUSE);
-}
-
-async function draw() {
-  const mine = new AbortController();
-  asking = mine;
-  const begun = performance.now();
-  form.classList.add("busy");
-  say("Drawing");
-  try {
-    const reply = await send("/admin/heads/preview", mine.signal);
-    await show(portrait, await reply.blob());
-    name(reply.headers.get("X-Head-Hash"));
-    if (!own.checked) wear(JSON.parse(reply.headers.get("X-Head-Look")), true);
-    say(`Drawn in ${((performance.now() - begun) / 1000).toFixed(1)} s`);
-  } catch (error) {
-    if (mine.signal.aborted || error.newer) return;
-    say(error.message, true);
-  } finally {
-    if (asking === mine) form.classList.remove("busy");
-  }
-}
-
-function send(address, signal) {
-  return post(address, new URLSearchParams(new FormData(form)), signal);
-}
-
-function name(digest) {
-  document.querySelector("#digest").textContent = digest.slice(0, 12);
-  document.querySelector("#short").textContent = digest.slice(0, 12);
-}
-
 function look() {
-  return [...ranges()].filter((input) => input.name.startsWith("look."));
+  return [...form.querySelectorAll(".control > [name^='look.']")];
 }
 
 /** Set the fields of the look: to what the head wears, or back to what was painted. */
@@ -85,9 +36,20 @@ function dress() {
   else if (painted) wear(painted);
 }
 
+function altered(input) {
+  // Whoever paints wants to see it, with the slider or by the number beside it.
+  if (look().includes(input?.closest(".control")?.querySelector("[name]"))) own.checked = true;
+  if (input === own) dress();
+  tellShares();
+}
+
+function drawn(headers) {
+  if (!own.checked) wear(JSON.parse(headers.get("X-Head-Look")), true);
+}
+
 async function copy() {
   try {
-    const reply = await send("/admin/heads/document");
+    const reply = await ask("document");
     await navigator.clipboard.writeText(await reply.text());
     say("Document copied");
   } catch (error) {
@@ -95,40 +57,7 @@ async function copy() {
   }
 }
 
-form.addEventListener("input", (event) => {
-  const input = event.target;
-  if (!follow(input)) return;
-  // Whoever paints wants to see it.
-  if (input.name?.startsWith("look.")) own.checked = true;
-  if (input === own) dress();
-  tellShares();
-  if (!["name", "children"].includes(input.name)) changed();
-});
-
-form.addEventListener("change", (event) => {
-  const input = event.target;
-  const wrong = check(input);
-  if (wrong) say(wrong, true);
-  // The name is not in the picture, but it is in the hash; nobody waits for that at every letter.
-  if (input.name === "name") changed();
-});
-
-form.addEventListener("click", (event) => {
-  if (!reset(event)) return;
-  tellShares();
-  changed();
-});
-
-form.addEventListener("submit", (event) => {
-  // Enter in any field asks for the first button, which previews.
-  if (event.submitter?.hasAttribute("formaction")) return;
-  event.preventDefault();
-  clearTimeout(timer);
-  asking?.abort();
-  draw();
-});
-document.querySelector("#copy").addEventListener("click", copy);
-
-begin(form);
-document.querySelector("#copy").hidden = !navigator.clipboard;
+copying.addEventListener("click", copy);
+copying.hidden = !navigator.clipboard;
+edit({ unseen: ["name", "children"], altered, drawn });
 tellShares();

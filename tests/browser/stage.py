@@ -11,6 +11,7 @@ from functools import cache
 from pathlib import Path
 
 from emogen_core.errors import EmogenError
+from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.rendering.setup import make_renderer
 from server.cli.chromium import chromium  # noqa: F401 - the browser of every test comes from here
 from server.cli.local import served
@@ -47,10 +48,18 @@ BLOCKS = (
         "faces": {"sources": ("own",)},
     },
 )  # fmt: skip
+RIG = load_bundled_rig()
+SURE = {
+    "strategy": "preference", "stop_at": 0.5, "least_generations": 2, "activation": (1, 2),
+    # Of two genes any choice tells enough.
+    "excluded_genes": tuple(sorted({*RIG.gene_names} - {*RIG.emotion_sets["happy"].genes[:2]})),
+}  # fmt: skip
 STUDIES = {
     "full": {"portrait": {"width": 200}},
     "small": SMALL,
     "asking": {**SMALL, "none_is_close": True, "pause_ms": 900},
+    "learning": {**SMALL, "search": {"strategy": "preference"}},
+    "ending": {**SMALL, "generations": 4, "search": SURE},
     "ordered": {**SMALL, "places": "fixed"},
     "unrated": {**SMALL, "ratings": ()},
     "limited": {**SMALL, "maximum": 3, "minimum": 2},

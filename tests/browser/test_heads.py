@@ -127,6 +127,14 @@ def test_the_look_follows_the_sliders_until_somebody_paints(page):
     assert depth.input_value() == "0.05", "what was painted is not lost"
 
 
+def test_a_number_typed_beside_a_slider_paints_too(page):
+    depth = page.locator("#p-look-skin_depth")
+    page.locator(".control", has=depth).locator(".typed").fill("0.4")
+    assert page.locator("#own_look").is_checked()
+    drawn(page)
+    assert depth.input_value() == "0.4"
+
+
 def test_enter_previews_and_a_name_is_in_the_fingerprint(page):
     downloads, before = [], digest(page)
     page.on("download", lambda download: downloads.append(download))  # noqa: PLW0108 - playwright marks it

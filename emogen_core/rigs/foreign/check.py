@@ -16,18 +16,24 @@ if TYPE_CHECKING:
 
     from emogen_core.rigs.foreign.model import Findings, HeadModel
 
+MIN_VERTICES = 100
 MAX_VERTICES = 200_000
 MAX_SHAPES = 1000
 LONGEST_NAME = 64
+
+# Half of a head's vertices, back and all, never move farther than this share of its size: they are of another order.
+_STAYS = 0.1
+# Parts of which the front is drawn, or taken for what lips meet, even where they are open.
+_FACING = ("skin", "eyes", "teeth")
 
 
 def check_model(model: HeadModel, findings: Findings) -> None:
     """Refuse a model that cannot become a rig, whatever its unit and axes.
 
     Raises:
-        InvalidInputError: too large; no expressions, or names that are none, or none that is known; numbers that are
-            not finite, or movements longer than the head; an edge with more than two triangles, neighbours that face
-            opposite ways, or a part inside out.
+        InvalidInputError: too small or too large; no expressions, or names that are none, or none that is known; a
+            movement twice; numbers that are not finite; movements of nothing, longer than the head, or of most of it;
+            an edge with more than two triangles, neighbours that face opposite ways, or a part inside out.
     """
     _check_size(model)
     _check_names(model)
@@ -37,6 +43,9 @@ def check_model(model: HeadModel, findings: Findings) -> None:
         _check_surface(model, part)
     _check_outward(model)
     still = [name for name, offsets in model.expressions.items() if not offsets.any()]
+    if len(still) == len(model.expressions):
+        wanted = "expressions that move the neutral's vertices"
+        raise InvalidInputError(f"{model.name}: expected {wanted}, got none that does; export shapes, not the neutral")
     if still:
         findings.missing.append(f"{len(still)} expressions move nothing: {counted(still)}.")
 
@@ -44,6 +53,9 @@ def check_model(model: HeadModel, findings: Findings) -> None:
 def _check_size(model: HeadModel) -> None:
     if not len(model.triangles):
         raise InvalidInputError(f"{model.name}: expected triangles, got none")
+    if len(model.vertices) < MIN_VERTICES:
+        wanted = f"a head of at least {MIN_VERTICES} vertices"
+        raise InvalidInputError(f"{model.name}: {expected(wanted, len(model.vertices))}; is it the right file?")
     counts = (len(model.vertices), len(model.expressions) + len(model.identity_modes))
     if counts[0] > MAX_VERTICES or counts[1] > MAX_SHAPES:
         wanted = f"at most {MAX_VERTICES} vertices and {MAX_SHAPES} shapes"
@@ -61,7 +73,13 @@ def _check_names(model: HeadModel) -> None:
         raise InvalidInputError(f"names: {expected(f'1 to {LONGEST_NAME} letters', wrong[0])}; name every expression")
     if not any(meaning(name).known for name in names):
         wanted = "names of ARKit or ICT-FaceKit, as jawOpen and eyeBlink_L"
-        raise InvalidInputError(f"names: {expected(wanted, list(names))}; rename the expressions that are such")
+        got = counted(names)
+        raise InvalidInputError(f"names: expected {wanted}, got {got}; rename the expressions that are such")
+    first: dict[str, str] = {}
+    for name in names:
+        other = first.setdefault(meaning(name).standard, name)
+        if other != name and meaning(name).known:
+            raise InvalidInputError(f"names: expected every movement once, got {other} and {name}; leave out one")
 
 
 def _check_finite(model: HeadModel) -> None:
@@ -73,7 +91,7 @@ def _check_finite(model: HeadModel) -> None:
 
 
 def _check_reach(model: HeadModel) -> None:
-    """Refuse movements that are longer than the head is large: such a file is of another unit, or damaged."""
+    """Refuse movements that are longer than the head is large, or of most of it: another unit, or another order."""
     large = float(np.ptp(model.vertices.astype(np.float64), axis=0).max())
     for name, offsets in (*model.expressions.items(), *model.identity_modes.items()):
         longest = float(np.abs(offsets).max())
@@ -81,6 +99,12 @@ def _check_reach(model: HeadModel) -> None:
             wanted = f"movements shorter than the head's {large:.4g}"
             raise InvalidInputError(
                 f"{name}: expected {wanted}, got {longest:.4g}; is it in the neutral's unit and place?"
+            )
+        usual = float(np.median(np.linalg.norm(offsets, axis=1)))
+        if usual > _STAYS * large:
+            wanted = f"most vertices within {_STAYS * large:.4g} of where the neutral has them"
+            raise InvalidInputError(
+                f"{name}: expected {wanted}, got {usual:.4g} away; is it in the neutral's unit, place and order?"
             )
 
 
@@ -109,11 +133,11 @@ def _check_surface(model: HeadModel, part: str) -> None:
 
 
 def _check_outward(model: HeadModel) -> None:
-    """Refuse skin and closed parts that are inside out; of other open parts nobody can tell."""
-    skin = roles_of(model)["skin"]
+    """Refuse skin, eyes, teeth and closed parts that are inside out; of other open parts nobody can tell."""
+    facing = {part for role in _FACING for part in roles_of(model)[role]}
     for part in model.parts:
         triangles = model.triangles[slice(*model.parts[part])]
-        if (part in skin or _is_closed(triangles)) and _volume(model.vertices, triangles) < 0:
+        if (part in facing or _is_closed(triangles)) and _volume(model.vertices, triangles) < 0:
             raise InvalidInputError(f"part {part}: expected its front outside, got it inside out; flip its normals")
 
 

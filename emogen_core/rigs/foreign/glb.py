@@ -66,7 +66,8 @@ def _document(text: bytes, name: str) -> dict[str, Any]:
     try:
         document = json.loads(text)
     except (ValueError, RecursionError) as error:
-        raise InvalidInputError(f"{name}: expected a glTF document, got {error}") from error
+        told = error if text.lstrip()[:1] == b"{" else f"{text[:8]!r}" if text else "an empty file"
+        raise InvalidInputError(f"{name}: expected a glTF document, got {told}; export it again") from error
     version = document.get("asset", {}).get("version") if isinstance(document, dict) else None
     if not str(version).startswith("2."):
         raise InvalidInputError(f"{name}: {expected('glTF of version 2', version)}; export it as glTF 2.0")

@@ -1,9 +1,14 @@
-"""Names of expressions: sides taken off, and what they mean in the vocabulary of ARKit and ICT-FaceKit."""
+"""Names of expressions: sides taken off, and what they mean in the vocabulary of ARKit and ICT-FaceKit.
+
+Heads that the product wrote have the bundled rig's names; those that mean one movement of ARKit's are read as that.
+"""
 
 from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+
+from emogen_core.landmarks.arkit import TABLE
 
 ONE_SIDED = (
     "browDown", "browInnerUp", "browOuterUp", "cheekPuff", "cheekSquint", "eyeBlink", "eyeLookDown", "eyeLookIn",
@@ -22,7 +27,10 @@ _SIDE = re.compile(
     r"(?P<stem>.*?[a-z0-9])(?:[_.\- ]?(?P<word>Left|Right)|[_.\- ](?P<letter>[LRlr]|left|right)|(?P<bare>[LR]))"
 )
 _KNOWN = {name.lower(): name for name in (*ONE_SIDED, *WHOLE)}
-_SYNONYMS = {"lidsclose": "eyeBlink"}
+# The bundled rig's shapes that are one of ARKit's movements and no more, by that name.
+_BUNDLED = {
+    shapes[0].lower(): name for name, shapes in TABLE.items() if len(shapes) == 1 and shapes[0].lower() not in _KNOWN
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +59,10 @@ def meaning(name: str) -> Meaning:
     stem, side = (
         (found["stem"], (found["word"] or found["letter"] or found["bare"])[0].upper()) if found else (whole, "")
     )
-    standard = _KNOWN.get(stem.lower()) or _SYNONYMS.get(stem.lower())
+    standard = _KNOWN.get(stem.lower())
+    arkit = None if standard else _BUNDLED.get(f"{stem}.{side}".lower() if side else stem.lower())
+    if arkit:
+        return meaning(arkit)
     return Meaning(standard or stem, side, known=standard is not None)
 
 

@@ -49,9 +49,10 @@ class Polygons:
 class ObjMesh:
     """What one file holds: (N, 3) and (M, 2) float64, its faces, and all that stands behind its last vertex.
 
-    ``tail`` is empty where faces stand before that.
+    ``name`` is what messages call it. ``tail`` is empty where faces stand before the last vertex.
     """
 
+    name: str
     vertices: NDArray[np.float64]
     uv: NDArray[np.float64]
     polygons: Polygons
@@ -68,22 +69,30 @@ def parse_obj(data: bytes, name: str, like: ObjMesh | None = None) -> ObjMesh:
     Args:
         data: the file.
         name: what messages call it.
-        like: a mesh whose faces are taken where this file ends with the same text, which saves parsing them.
+        like: a mesh whose vertices this one moves. Its faces are taken where this file ends with the same text, which
+            saves parsing them.
 
     Raises:
-        InvalidInputError: no vertices or faces, a number that is none, an index that is out of range, a face of fewer
-            than three corners, or an ``mtllib`` outside of the folder (it is not opened in any case).
+        InvalidInputError: no vertices or faces, other ones than ``like`` has, a number that is none, an index that is
+            out of range, a face of fewer than three corners, or an ``mtllib`` outside of the folder (it is not opened
+            in any case).
     """
     known = None if like is None else _vertices_before(data, like, name)
     if like is not None and known is not None:
-        return ObjMesh(known, like.uv, like.polygons, like.tail)
+        return ObjMesh(name, known, like.uv, like.polygons, like.tail)
     lines = [line.strip() for line in data.replace(b"\\\r\n", b" ").replace(b"\\\n", b" ").split(b"\n")]
     kinds = np.array([line.partition(b" ")[0].partition(b"\t")[0][:8] for line in lines])
     vertices = _numbers(lines, kinds == b"v", 3, name)
+    if like is not None and len(vertices):
+        # Before the faces are: of a vertex that was deleted they would say that an index is out of range.
+        _check_count(len(vertices), name, like)
     for i in np.flatnonzero(kinds == b"mtllib"):
         named_inside(Path(), lines[i][6:].strip().decode("utf-8", "replace"), name)
     uv = _numbers(lines, kinds == b"vt", 2, name)
-    return ObjMesh(vertices, uv, _polygons(lines, kinds, name, (len(vertices), len(uv))), _tail(data))
+    mesh = ObjMesh(name, vertices, uv, _polygons(lines, kinds, name, (len(vertices), len(uv))), _tail(data))
+    if like is not None:
+        _check_faces(mesh, like)
+    return mesh
 
 
 def triangulated(polygons: Polygons) -> tuple[NDArray[np.int32], NDArray[np.int64], dict[str, tuple[int, int]]]:
@@ -102,6 +111,20 @@ def triangulated(polygons: Polygons) -> tuple[NDArray[np.int32], NDArray[np.int6
     ends = np.searchsorted(part, np.arange(len(polygons.parts) + 1))
     parts = {name: (int(ends[i]), int(ends[i + 1])) for i, name in enumerate(polygons.parts)}
     return polygons.corners[corner].astype(np.int32), polygons.texture[corner], parts
+
+
+def _check_count(count: int, name: str, like: ObjMesh) -> None:
+    if count != len(like.vertices):
+        wanted = f"{len(like.vertices)} vertices as in {like.name}"
+        raise InvalidInputError(f"{name}: {expected(wanted, count)}; export it with the same order")
+
+
+def _check_faces(mesh: ObjMesh, like: ObjMesh) -> None:
+    own, whole = mesh.polygons, like.polygons
+    if not (np.array_equal(own.sizes, whole.sizes) and np.array_equal(own.corners, whole.corners)):
+        got = "others" if len(own.sizes) == len(whole.sizes) else f"{len(own.sizes)}"
+        told = f"expected the {len(whole.sizes)} faces of {like.name}, got {got}"
+        raise InvalidInputError(f"{mesh.name}: {told}; export it without changing the vertex order")
 
 
 def _tail(data: bytes) -> bytes:

@@ -49,9 +49,11 @@ def read_obj_folder(folder: Path, findings: Findings, neutral: str = "") -> Head
     inside = folder / ICT_FOLDER
     folder = inside if inside.is_dir() else folder
     files = _by_name(files_of(folder, ".obj"))
+    if not files:
+        raise InvalidInputError(f"{folder.name}: expected OBJ files, one a shape, got none; is it the right folder?")
     rest = files.pop(_neutral(tuple(files), neutral, findings))
     mesh = parse_obj(read_limited(rest), rest.name)
-    shapes = {name: _offsets(path, mesh, rest.name) for name, path in files.items()}
+    shapes = {name: _offsets(path, mesh) for name, path in files.items()}
     modes = {name: shapes.pop(name) for name in tuple(shapes) if _IDENTITY.fullmatch(name)}
     findings.found.append(
         f"{len(mesh.vertices)} vertices, {len(mesh.polygons.sizes)} faces, {len(shapes)} expressions, "
@@ -83,20 +85,16 @@ def _neutral(names: tuple[str, ...], asked: str, findings: Findings) -> str:
     best = [n for n in likely if "neutral" in n.lower()] or likely
     if len(best) != 1:
         wanted = f"one OBJ file called {', '.join(NEUTRAL_WORDS)} or the like"
-        raise InvalidInputError(f"neutral: {expected(wanted, sorted(best))}; say which one with --neutral NAME")
+        got = counted(sorted(best)) if best else f"none among {counted(sorted(names))}"
+        raise InvalidInputError(
+            f"neutral: expected {wanted}, got {got}; rename it, or say which one with --neutral NAME"
+        )
     findings.guessed.append(f"The neutral is {best[0]}.obj, by its name.")
     return best[0]
 
 
-def _offsets(path: Path, neutral: ObjMesh, rest: str) -> NDArray[np.float32]:
+def _offsets(path: Path, neutral: ObjMesh) -> NDArray[np.float32]:
     mesh = parse_obj(read_limited(path), path.name, like=neutral)
-    if len(mesh.vertices) != len(neutral.vertices):
-        wanted = f"{len(neutral.vertices)} vertices as in {rest}"
-        raise InvalidInputError(f"{path.name}: {expected(wanted, len(mesh.vertices))}; export it with the same order")
-    own, whole = mesh.polygons, neutral.polygons
-    if not (np.array_equal(own.sizes, whole.sizes) and np.array_equal(own.corners, whole.corners)):
-        wanted, got = (f"the {len(whole.sizes)} faces of {rest}", f"{len(own.sizes)} others")
-        raise InvalidInputError(f"{path.name}: {expected(wanted, got)}; export it without changing the vertex order")
     offsets = mesh.vertices - neutral.vertices
     offsets[np.abs(offsets) < _ROUNDING * np.abs(neutral.vertices).max()] = 0
     return offsets.astype(np.float32)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import TYPE_CHECKING
 
+from emogen_core.landmarks.arkit import TABLE
 from emogen_core.rigs.foreign.mirror import centre_of, mirrored
 from emogen_core.rigs.foreign.model import counted
 from emogen_core.rigs.foreign.names import ONE_SIDED, SIDEWAYS, WHOLE, meaning
@@ -129,9 +130,15 @@ def _say_missing(called: dict[str, str], findings: Findings) -> None:
         findings.missing.append(f"The other side of {counted(half)}.")
     # Some movements are one-sided here and whole there.
     movements = dict.fromkeys((*ONE_SIDED, *WHOLE))
-    absent = [name for name in movements if called.keys().isdisjoint((name, f"{name}_L", f"{name}_R"))]
+    absent = [name for name in movements if called.keys().isdisjoint((name, f"{name}_L", f"{name}_R", *_parts(name)))]
     if absent:
         findings.missing.append(f"{len(absent)} of ARKit's movements: {counted(absent)}.")
+
+
+def _parts(name: str) -> tuple[str, ...]:
+    """Return the bundled rig's shapes that make up one of ARKit's, where it takes several."""
+    shapes = TABLE.get(name, ())
+    return shapes if len(shapes) > 1 else ()
 
 
 def _other(name: str) -> str:

@@ -11,6 +11,7 @@ from emogen_core.errors import InvalidInputError, expected
 from emogen_core.rigs.foreign.check import check_model
 from emogen_core.rigs.foreign.frame import placed
 from emogen_core.rigs.foreign.gltf import read_gltf
+from emogen_core.rigs.foreign.halves import with_halves
 from emogen_core.rigs.foreign.model import Findings
 from emogen_core.rigs.foreign.obj_folder import read_obj_folder
 from emogen_core.rigs.foreign.pairs import find_pairs
@@ -64,6 +65,7 @@ def read_head(path: Path, unit: str = "", neutral: str = "") -> ReadHead:
     check_model(model, findings)
     model = placed(model, findings, unit)
     say_roles(model, findings)
+    model = with_halves(model, findings)
     return ReadHead(model, find_pairs(model, findings), find_regions(model, findings), findings)
 
 

@@ -1,6 +1,7 @@
 """A foreign head made into a rig and its look: the order of the steps, and nothing else.
 
-read -> genes -> eyes that turn -> the bundled head laid over it -> parts of the flesh -> heads -> correctives -> look
+read -> genes -> left like right -> eyes that turn -> the bundled head laid over it -> parts of the flesh -> heads
+-> lids that close -> correctives -> mouths that stay shut -> look
 """
 
 from __future__ import annotations
@@ -16,19 +17,24 @@ from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.face.rig import Rig
 from emogen_core.rendering.plain import plain_look
 from emogen_core.rendering.setup import bundled_look
-from emogen_core.rigs.foreign.mirror import mirrored
+from emogen_core.rigs.foreign.mirror import mirrored, permutation
+from emogen_core.rigs.foreign.names import meaning
 from emogen_core.rigs.foreign.read import read_head
 from emogen_core.rigs.imported.combined import with_combinations
 from emogen_core.rigs.imported.dressed import Dresser
 from emogen_core.rigs.imported.emotions import emotion_sets
+from emogen_core.rigs.imported.evened import evened, say_evened
 from emogen_core.rigs.imported.front import Front
 from emogen_core.rigs.imported.gaze import SIDES, Eyeball, find_eyeball, with_turning_eyes
 from emogen_core.rigs.imported.genes import GeneShapes, make_genes
 from emogen_core.rigs.imported.heads import FIRST, mixed_head, random_weights
+from emogen_core.rigs.imported.lids import with_fitted_lids
+from emogen_core.rigs.imported.lying import EYES, bundled_on, skin_of
 from emogen_core.rigs.imported.match import islands, islands_of
-from emogen_core.rigs.imported.mouth import drop_of, freed, with_collision_correctives
-from emogen_core.rigs.imported.overlay import LEAST_SHARED, Skin, laid_over
+from emogen_core.rigs.imported.mouth import drop_of, freed, lower_side, with_collision_correctives
+from emogen_core.rigs.imported.overlay import Skin
 from emogen_core.rigs.imported.parts import FLESH, Parts, pieces, sort_parts
+from emogen_core.rigs.imported.shut import with_shut_mouths
 from emogen_core.rigs.rest import BROWS
 
 if TYPE_CHECKING:
@@ -45,8 +51,8 @@ if TYPE_CHECKING:
 
 # Part of the flesh -> in how many pieces it is.
 _HOLLOWS = {"mouth": 1, "sockets": 2}
-# Millimetres within which vertices are mirror images.
-_SYMMETRIC = 0.05
+# Millimetres within which vertices are mirror images. Where it matters, at lips and teeth, collisions look closer.
+_SYMMETRIC = 0.3
 
 
 @dataclass(frozen=True)
@@ -99,26 +105,31 @@ def import_head(path: Path, wishes: Wishes, tell: Callable[[str], object] = str)
     if wishes.wears not in look.styles:
         raise InvalidInputError(f"wears: {expected(f'one of {sorted(look.styles)}', wishes.wears)}")
     head = read_head(path, wishes.unit, wishes.neutral)
-    made = make_genes(head)
+    made, mirror = make_genes(head), _mirror(head.model, head.findings)
+    made = replace(made, shapes=_evened(made, mirror, head.findings))
     parts = _parts(head)
     eyes = _eyes(head.model, parts)
     drop = drop_of(made.shapes, parts.vertices(*FLESH), len(head.model.vertices))
-    front = Front(head.model.vertices.astype(np.float64), parts.of(*FLESH), parts.of("eye_left", "eye_right"), drop)
-    warped = _overlay(template, wishes.wears, front, head.findings)
+    front = Front(head.model.vertices.astype(np.float64), parts.of(*FLESH), parts.of(*EYES), drop)
+    warped = bundled_on(template, wishes.wears, front, head.findings)
     if warped:
         parts = _classified(parts, look, front, warped)
     shapes = with_turning_eyes(head.model.vertices, made.shapes, eyes, head.findings)
-    rig = _bare(head, replace(made, shapes=shapes), parts, wishes)
+    rig = replace(_bare(head, replace(made, shapes=shapes), parts, wishes), mirror=mirror)
     if warped:
         rig = replace(rig, regions={BROWS: _brows(template, warped, rig)})
+    rig = with_fitted_lids(rig, eyes, head.findings)
     if wishes.combinations:
         tell("Correctives are derived, which takes some minutes.")
         rig = with_combinations(rig, made.correctives, eyes, head.findings)
-    rig = freed(with_collision_correctives(rig, drop, head.findings), drop, head.findings)
+    rig = with_collision_correctives(rig, drop, head.findings)
+    # What is derived of symmetric shapes is symmetric but for hundredths of a millimetre.
+    even = evened(dict(zip(rig.shape_names, rig.offsets, strict=True)), rig.mirror)
+    rig = freed(replace(rig, offsets=np.stack([*even.values()])), drop, head.findings)
+    rig = with_shut_mouths(rig, lower_side(drop), head.findings)
     if not warped:
         return Imported(rig, plain_look(rig), head.findings, head.model.identity_modes)
-    flesh = Skin(front.vertices, front.skin, drop)
-    dresser = Dresser(rig, look, template, warped, flesh, eyes)
+    dresser = Dresser(rig, look, template, warped, skin_of(front), eyes)
     return Imported(rig, dresser.dressed(wishes.wears, front.edges()), head.findings, head.model.identity_modes)
 
 
@@ -131,26 +142,10 @@ def _eyes(model: HeadModel, parts: Parts) -> dict[str, Eyeball]:
     return {side: find_eyeball(model.vertices, own) for side, own in rows.items() if len(own) > 8}
 
 
-def _overlay(template: Rig, wears: str, front: Front, findings: Findings) -> Skin | None:
-    """Return the bundled head's flesh, lying on the foreign head's; none where too little of a face is found."""
-    first, last = template.parts["skin"][0], template.parts["sockets"][1]
-    flesh = template.triangles[first:last]
-    offsets = {"jawOpen": template.offsets[template.shape_names.index("jawOpen")]}
-    neutral = template.neutral(wears).astype(np.float64)
-    drop = drop_of(offsets, np.unique(flesh).astype(np.intp), len(neutral))
-    balls = [template.triangles[slice(*template.parts[f"eye_{side}"])] for side in SIDES]
-    own = Front(neutral, flesh, np.concatenate(balls), drop)
-    target = Skin(front.vertices, front.skin, front.drop)
-    places, goals = own.landmarks(), front.landmarks()
-    shared = len(set(places) & set(goals))
-    if shared < LEAST_SHARED:
-        findings.missing.append(
-            f"Only {shared} of {len(places)} places of a face were found, for want of eyes and jaw: its look is in flat"
-            " colours, and nothing is known of its mouth."
-        )
-        return None
-    findings.guessed.append(f"The bundled head was laid over it by {shared} of {len(places)} places of a face.")
-    return laid_over(Skin(neutral, flesh, drop), target, places, goals)
+def _evened(made: GeneShapes, mirror: NDArray[np.int32], findings: Findings) -> dict[str, NDArray[np.float32]]:
+    shapes = evened(made.shapes, mirror)
+    say_evened(made.shapes, shapes, findings)
+    return shapes
 
 
 def _brows(template: Rig, warped: Skin, rig: Rig) -> NDArray[np.int32]:
@@ -196,12 +191,11 @@ def _bare(head: ReadHead, made: GeneShapes, parts: Parts, wishes: Wishes) -> Rig
         neutrals=_neutrals(model, parts, wishes, findings),
         triangles=triangles,
         parts=rows,
-        mirror=_mirror(model, findings),
     )
 
 
 def _neutrals(model: HeadModel, parts: Parts, wishes: Wishes, findings: Findings) -> dict[str, NDArray[np.float32]]:
-    eyes = parts.vertices("eye_left", "eye_right")
+    eyes = parts.vertices(*EYES)
     generator = np.random.default_rng(wishes.seed)
     chosen = dict(wishes.heads)
     if wishes.random and not model.identity_modes:
@@ -221,10 +215,10 @@ def _neutrals(model: HeadModel, parts: Parts, wishes: Wishes, findings: Findings
 
 def _mirror(model: HeadModel, findings: Findings) -> NDArray[np.int32]:
     """Return which vertex mirrors which, or none where one of them has no mirror image."""
-    found = mirrored(model.vertices)
-    rows = np.arange(len(model.vertices))
-    if found.gap.max() < _SYMMETRIC and (found.partner[found.partner] == rows).all():
+    jaw = next((moved for name, moved in model.expressions.items() if meaning(name).standard == "jawOpen"), None)
+    found = permutation(model.vertices, mirrored(model.vertices, jaw), _SYMMETRIC)
+    if found is not None:
         findings.found.append("The head is its own mirror image.")
-        return found.partner.astype(np.int32)
+        return found.astype(np.int32)
     findings.missing.append("The head is not its own mirror image: symmetric faces may be corrected a little unevenly.")
     return np.zeros(0, np.int32)

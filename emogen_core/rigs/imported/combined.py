@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from emogen_core.rigs.adapt import lid_corrective
 from emogen_core.rigs.candidates import Deriver
 from emogen_core.rigs.combinations import choose_pairs
-from emogen_core.rigs.fitting import Head
 from emogen_core.rigs.foreign.model import counted
 from emogen_core.rigs.imported.genes import gene_offsets
+from emogen_core.rigs.imported.lids import head_of
 from emogen_core.rigs.topology import RigTopology
 
 if TYPE_CHECKING:
@@ -43,8 +44,8 @@ def with_combinations(
     genes = gene_offsets(rig.genes, dict(zip(rig.core_shapes, rig.offsets, strict=True)))
     neutral = rig.neutral(rig.identities[0]).astype(np.float64)
     shut = correctives.get("mouthClose")
-    deriver = Deriver(RigTopology(rig), None if shut is None else shut.astype(np.float64))
-    head = _head(neutral, eyes)
+    topology, head = RigTopology(rig), head_of(neutral, eyes)
+    deriver = Deriver(topology, None if shut is None else shut.astype(np.float64))
     skipped = frozenset(gene.name for gene in rig.genes if gene.flags & _INACTIVE)
     pairs = choose_pairs(deriver, head, genes, skipped)
     if not pairs:
@@ -52,12 +53,6 @@ def with_combinations(
         return rig
     names = [pair.combination.name for pair in pairs]
     findings.found.append(f"{len(pairs)} combinational correctives: {counted(names)}.")
-    derived = np.stack([deriver.derive(pair, head, genes) for pair in pairs]).astype(np.float32)
+    derived = np.stack([lid_corrective(topology, deriver, pair, head, genes) for pair in pairs]).astype(np.float32)
     combinations = tuple(pair.combination for pair in pairs)
     return replace(rig, combinations=combinations, offsets=np.concatenate([rig.offsets, derived]))
-
-
-def _head(neutral: NDArray[np.float64], eyes: Mapping[str, Eyeball]) -> Head:
-    """Return a head whose lids are kept out of its eyeballs; of none if it has no eyes."""
-    left = eyes.get("left")
-    return Head(neutral, np.zeros(3), 0.0) if left is None else Head(neutral, left.centre, left.radius)

@@ -30,6 +30,9 @@ _LID_SHARES = (0.15, 0.35, 0.5, 0.65, 0.85)
 _LIP_SHARES = np.linspace(0.0, 1.0, 9)
 _FOREHEAD = (25.0, 45.0, 65.0)
 _CHEEK, _WING = 28.0, 0.25
+_BEHIND = 25.0  # millimetres; corners of a mouth lie no farther behind its middle
+_UNDER = 12.0  # millimetres behind the chin
+_CAP = 8.0  # millimetres of what stands out most, of which the middle is taken
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,8 +103,12 @@ class Front:
         line = self.mouth_line()
         if len(line) < 20:
             return
+        # Between lips that stand apart the back of the mouth is seen.
+        lips = line[:, 2] > np.median(line[:, 2]) - _BEHIND
         for share in _LIP_SHARES:
-            yield f"mouth {share:.3f}", line[round(share * (len(line) - 1))]
+            place = round(share * (len(line) - 1))
+            if lips[place]:
+                yield f"mouth {share:.3f}", line[place]
 
     def edges(self) -> dict[str, NDArray[np.int32]]:
         """Return what a look's moving shadows need: vertices of lids and lips next to their openings, by x.
@@ -166,8 +173,9 @@ class Front:
         yield "chin fold", line[fold]
         chin = _most(z, (y < y[fold] - 4) & (y > level - 50))
         yield "chin", line[chin]
-        under = np.flatnonzero((y < y[chin]) & (z < z[chin] - 12))
-        yield "under chin", line[under[0]] if len(under) else np.full(3, np.nan)
+        # The last row of the chin and not the first below it: that may be a neck, far behind.
+        under = np.flatnonzero((y < y[chin]) & (z < z[chin] - _UNDER))
+        yield "under chin", line[under[0] - 1] if len(under) else np.full(3, np.nan)
         for height in _FOREHEAD:
             yield f"forehead {height:g}", line[int(np.abs(y - height).argmin())]
 
@@ -175,10 +183,10 @@ class Front:
         """Yield the crown, the ears, and the wings of the nose."""
         used = np.unique(self.skin)
         points = self.vertices[used]
-        yield "crown", points[points[:, 1].argmax()] * (0, 1, 1)
+        yield "crown", _middle(points, points[:, 1]) * (0, 1, 1)
         level = points[(points[:, 1] < 30) & (points[:, 1] > -45)]
         for side, sign in (("left", 1), ("right", -1)):
-            yield f"{side} ear", level[(sign * level[:, 0]).argmax()]
+            yield f"{side} ear", _middle(level, sign * level[:, 0])
         found = dict(self._profile())
         height = 0.2 * found["nose base"][1] + 0.8 * found["nose tip"][1]
         row = self._picture[1][round((_TOP - height) / PITCH)]
@@ -194,6 +202,12 @@ def _wing(row: Floats, sign: int) -> Floats:
     if len(out) < 4 or out[0, 2] <= cheek:
         return np.full(3, np.nan)
     return np.asarray(out[np.flatnonzero(out[:, 2] > cheek + _WING * (out[0, 2] - cheek))[-1]])
+
+
+def _middle(points: Floats, out: Floats) -> Floats:
+    """Return the middle of what stands out most: on round things the farthest vertex itself is a matter of chance."""
+    cap = points[out > out.max() - _CAP]
+    return np.asarray((cap.min(0) + cap.max(0)) / 2)
 
 
 def _most(values: Floats, where: NDArray[np.bool_]) -> int:

@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 
 _RECIPES = {recipe.name: recipe for recipe in RECIPES}
 _ORDER = {name: place for place, name in enumerate(_RECIPES)}
+# The gene that, with jawOpen, brings mouthClose.
+_SHUTS = "mouthPress"
 _FUNNEL = "mouthFunnel"  # two genes of the bundled rig, one of everybody else's
 _GAZE = {"left": "gazeLeft", "right": "gazeRight", "up": "gazeUp", "down": "gazeDown"}
 # Whole in ARKit, and cut in two over so many millimetres to either side of the middle: brows and cheeks have two sides.
@@ -77,7 +79,11 @@ def make_genes(head: ReadHead) -> GeneShapes:
     shapes = {name: offsets for one in made for name, offsets in one.shapes.items()}
     correctives = {name: model.expressions[name] for name in head.pairs.correctives}
     findings.found.append(f"{len(made)} genes of {len(shapes)} shapes.")
-    _tell_absent({one.gene.name for one in made}, findings)
+    names = {one.gene.name for one in made}
+    _tell_absent(names, findings)
+    if correctives and _SHUTS not in names:
+        told = counted(sorted(correctives))
+        findings.missing.append(f"{told} is not used: there is no {_SHUTS}, which closes an open jaw with it.")
     return GeneShapes(tuple(one.gene for one in made), shapes, correctives)
 
 

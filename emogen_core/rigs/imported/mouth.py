@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from emogen_core.correctives.collision.detect import detect
-from emogen_core.correctives.collision.regions import ANCHORED, LOWER_LIP, has_regions, judge_anchors, target_faces
+from emogen_core.correctives.collision.regions import ANCHORED, LOWER_LIP, has_regions
 from emogen_core.rendering.normals import NormalField
 from emogen_core.rigs.canvas import smoothstep
-from emogen_core.rigs.collision_bake import TOLERANCE, settled
+from emogen_core.rigs.collision_bake import TOLERANCE
 from emogen_core.rigs.collision_shapes import COLLISION_SHAPES, collision_offsets, mouth_regions
-from emogen_core.rigs.lips import close_slits, visible_teeth
+from emogen_core.rigs.shut_mouth import shut_mouth
 from emogen_core.rigs.topology import RigTopology
 
 if TYPE_CHECKING:
@@ -84,19 +84,15 @@ def freed(rig: Rig, drop: Floats, findings: Findings) -> Rig:
     """Return a rig whose heads neither collide nor show a tooth at rest, or every face of theirs would be corrected."""
     if not has_regions(rig):
         return rig
-    anchors, target = judge_anchors(rig), target_faces(rig)
-    topology, low = RigTopology(rig), lower_side(drop)
+    mouth = shut_mouth(rig, lower_side(drop))
+    anchors = mouth.anchors
     neutrals, told = {}, []
     for name, neutral in rig.neutrals.items():
-        mesh = neutral.astype(np.float64)
-        for _ in range(_ROUNDS):
-            mesh = settled(rig, close_slits(topology, low, mesh), anchors, target)
-            if not len(visible_teeth(topology, mesh)):
-                break
+        mesh = mouth.freed(neutral.astype(np.float64), _ROUNDS)
         moved = float(np.abs(mesh - neutral).max())
         if moved > _MOVED:
             told.append(f"{name} by {moved:.2f} mm")
-        left = detect(anchors.sample(mesh[None])[0], anchors.kind, mesh, target, tolerance=TOLERANCE)
+        left = detect(anchors.sample(mesh[None])[0], anchors.kind, mesh, mouth.target, tolerance=TOLERANCE)
         if left.collides:
             findings.missing.append(f"{name}: lips or teeth still touch at rest; close its lips before importing it.")
         neutrals[name] = mesh.astype(np.float32)

@@ -11,8 +11,8 @@ from emogen_core.face.model_identity import known_as, model_document
 from emogen_core.rendering.worn import WornHead
 from emogen_core.rigs.foreign.model import Findings
 from emogen_core.rigs.imported.heads import mixed_head
-from emogen_core.rigs.imported.mouth import drop_of, freed
-from emogen_core.rigs.imported.parts import FLESH
+from emogen_core.rigs.imported.lying import EYES, front_of
+from emogen_core.rigs.imported.mouth import freed
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -20,9 +20,6 @@ if TYPE_CHECKING:
     from emogen_core.face.model_identity import ModelIdentity
     from emogen_core.face.modes import ModeSpace
     from emogen_core.face.rig import Rig
-
-JAW = "jawOpen"
-EYES = ("eye_left", "eye_right")
 
 
 def wear_modes(rig: Rig, space: ModeSpace, identity: ModelIdentity) -> WornHead:
@@ -43,13 +40,8 @@ def wear_modes(rig: Rig, space: ModeSpace, identity: ModelIdentity) -> WornHead:
     signed = model_document(identity, space)
     first = rig.identities[0]
     mixed = mixed_head(rig.neutral(first), space.modes, signed["modes"], _vertices(rig, *EYES))
-    rested = freed(replace(rig, neutrals={first: mixed}), _drop(rig), Findings())
+    rested = freed(replace(rig, neutrals={first: mixed}), front_of(rig).drop, Findings())
     return WornHead(known_as(signed), rested.neutral(first), None, {}, first)
-
-
-def _drop(rig: Rig) -> NDArray[np.float64]:
-    shapes = {JAW: rig.offsets[rig.core_shapes.index(JAW)]} if JAW in rig.core_shapes else {}
-    return drop_of(shapes, _vertices(rig, *FLESH), rig.offsets.shape[1])
 
 
 def _vertices(rig: Rig, *parts: str) -> NDArray[np.intp]:

@@ -14,12 +14,20 @@ import numpy as np
 from emogen_core.search.params import POPULATION
 from emogen_core.search.preference import prior
 from emogen_core.search.preference.chains import NUMBERS, ROUND, Evidence
-from emogen_core.search.preference.design import picked
+from emogen_core.search.preference.design import BestFace, Disagreement, picked
 from emogen_core.search.preference.likelihood import arranged
-from emogen_core.search.preference.proposals import mean_face, means_of_many, pool, shaped
+from emogen_core.search.preference.proposals import (
+    EARLY,
+    composition_leads,
+    mean_face,
+    means_of_many,
+    pool,
+    shaped,
+    visible,
+)
 from emogen_core.search.preference.sample import Sample
 from emogen_core.search.preference.sampler import moved, resampled, weighed
-from emogen_core.search.preference.utility import COSINE, utilities
+from emogen_core.search.preference.utility import COSINE, VERTEX, utilities
 from emogen_core.search.state import Choice
 
 if TYPE_CHECKING:
@@ -34,8 +42,10 @@ FIRST = 2000
 """Draws from the prior that the first answer is weighed on."""
 FIRST_ROUNDS, ROUNDS = 4, 4
 """Rounds of moves after the first answer, and after every other."""
-MOST_ALIKE = (1.0, 0.28, 0.29, 0.31, 0.34, 0.37)
-"""Mean cosine of any two of ten faces by generation, as of the paper's algorithm; later faces may be more alike."""
+MOST_ALIKE = {COSINE: (1.0, 0.28, 0.29, 0.31, 0.34, 0.37), VERTEX: (1.0, 0.19, 0.21, 0.22, 0.26, 0.29)}
+"""Mean cosine of any two of ten faces by leading metric and generation, below that of the paper's algorithm with people
+who judge so; later faces may be more alike."""
+VARIED = len(MOST_ALIKE[COSINE])
 IN_MEAN = 12
 """Draws in each of the faces of the last generation."""
 
@@ -88,16 +98,32 @@ def _joined(samples: Sequence[Sample]) -> Sample:
 
 @dataclass(frozen=True, slots=True)
 class Turn:
-    """A generation, and the last one of its trial."""
+    """A generation of a trial.
+
+    Attributes:
+        generation: its number.
+        last: the most that the trial has.
+        best_only: whether every choice so far told nothing but the best face.
+        sure: whether enough is known, so that the trial ends with this generation.
+    """
 
     generation: int
     last: int
+    best_only: bool = False
+    sure: bool = False
+
+    @property
+    def final(self) -> bool:
+        """Whether the trial ends with this generation."""
+        return self.sure or self.generation == self.last
 
 
 def faces_of(
     space: Space, sample: Sample, elite: Floats, turn: Turn, rng: np.random.Generator
 ) -> tuple[Floats, tuple[str, ...]]:
     """Return the (10, A) faces of a generation and where they come from, the elite first.
+
+    An elite that can hardly be told from the neutral face, as some of the first faces, is not shown again.
 
     Args:
         space: the genes.
@@ -106,30 +132,41 @@ def faces_of(
         turn: the generation; the faces of the last one are all near to what is meant, to be chosen from.
         rng: the stream of this generation.
     """
-    if turn.generation == turn.last:
+    if turn.final:
         made, named = _nearest(space, sample, rng)
     else:
         made, named = pool(sample, elite, rng)
-    made = shaped(sample, np.concatenate([mean_face(space, sample)[None], made]), turn.generation)
+    late = EARLY + 1 if turn.sure else turn.generation  # where a result is chosen, no gene of it is left out
+    made = shaped(sample, np.concatenate([mean_face(space, sample)[None], made]), late)
     faces, origins = np.concatenate([elite[None], made]), ("elite", "posterior-mean", *named)
-    slots = np.arange(POPULATION) if turn.generation == turn.last else _asked(space, sample, faces, turn.generation)
+    if not visible(elite):
+        faces, origins = faces[1:], origins[1:]
+    slots = np.arange(POPULATION) if turn.final else _asked(space, sample, faces, turn)
     return faces[slots], tuple(origins[slot] for slot in slots)
 
 
+def turn_of(choices: Sequence[Choice], last: int, *, sure: bool = False) -> Turn:
+    """Return the turn after some choices, of a trial with a last generation; `sure` if it ends here."""
+    return Turn(len(choices), last, all(len(choice.selected) == 1 for choice in choices), sure)
+
+
 def _nearest(space: Space, sample: Sample, rng: np.random.Generator) -> tuple[Floats, tuple[str, ...]]:
-    """Return eight faces as near to what is meant as is known, but not the same."""
-    return means_of_many(space, sample, POPULATION - 2, IN_MEAN, rng), ("draws-mean",) * (POPULATION - 2)
+    """Return nine faces as near to what is meant as is known, but not the same."""
+    return means_of_many(space, sample, POPULATION - 1, IN_MEAN, rng), ("draws-mean",) * (POPULATION - 1)
 
 
-def _asked(space: Space, sample: Sample, faces: Floats, generation: int) -> NDArray[np.intp]:
-    """Return the indices of ten faces, the elite first; while they are to be unlike, the mean face has no own slot."""
-    varied = generation < len(MOST_ALIKE)
+def _asked(space: Space, sample: Sample, faces: Floats, turn: Turn) -> NDArray[np.intp]:
+    """Return the indices of ten faces: the first one, once faces may be alike the second too, then those picked."""
+    varied = turn.generation < VARIED
     given = 1 if varied else 2
     different = _different(faces)
     shown = faces[different]
     judged = utilities(space, shown, sample.genes, sample.metric) / np.exp(np.median(sample.log_tau))
     alike = utilities(space, shown, shown, np.full(len(shown), COSINE))
-    chosen = picked(judged, given, POPULATION - given, alike, MOST_ALIKE[generation] if varied else 1.0)
+    limits = MOST_ALIKE[COSINE if composition_leads(sample) else VERTEX]
+    most_alike = limits[turn.generation] if varied else 1.0
+    worth = BestFace(judged) if turn.best_only else Disagreement(judged)
+    chosen = picked(worth, given, POPULATION - given, alike, most_alike)
     return np.asarray(different[np.concatenate([np.arange(given), chosen])])
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from emogen_core.search.operators import scatter
-from emogen_core.search.preference.utility import COSINE, LEAST_SQUARE, VERTEX
+from emogen_core.search.preference.utility import COSINE, LEAST_SQUARE
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -27,10 +27,15 @@ MOST_IN_PART, MOST_SPARSE = 6, 7
 GRID = 2.0**24
 LEAST_STRONGEST = 0.4
 """Of a shown face's strongest gene while faces are judged by composition: fainter ones could hardly be told apart."""
+VISIBLE = 5 / 32
+"""Least weight of a shown face's strongest gene, however faces are judged: below it, it looks like the neutral one. It
+is on the grid, so that a face that was raised to it is not below it."""
 MOST_ACTIVE, EARLY = 16, 7
 """Genes at work in a face, up to this generation."""
 FAINT = 0.02
 """Weights below it are not shown."""
+STRONGEST = 0.1
+"""Share of the genes that count in a face whose weights say how strong it is."""
 
 
 def on_grid(genes: Floats) -> Floats:
@@ -39,9 +44,13 @@ def on_grid(genes: Floats) -> Floats:
 
 
 def mean_face(space: Space, sample: Sample) -> Floats:
-    """Return the (A,) face that on average is nearest to all draws: their mean direction, at their median norm.
+    """Return the (A,) face that stands for all draws.
 
-    Directions and norms are those of the metric that most draws have.
+    While most draws judge by cosine, it is their mean direction, on average the nearest to all of them. Answers tell
+    nothing of strength then, so it is what the prior says of so many genes, see `_strength`.
+
+    While most judge by vertices, every gene is at its root mean square: the mean would be weaker than any draw
+    wherever draws have different genes at work.
     """
     (face,) = _means(space, sample, np.arange(len(sample.metric))[None])
     return np.asarray(face)
@@ -58,7 +67,7 @@ def pool(sample: Sample, elite: Floats, rng: np.random.Generator) -> tuple[Float
     kinds = {
         "draw": draws,
         "draws-mean": np.concatenate([_averages(draws, 2, PAIRS, rng), _averages(draws, 3, TRIPLES, rng)]),
-        "elite-draw": np.where(rng.random((CROSSED, len(elite))) < 0.5, elite, _some(draws, CROSSED, rng)),
+        "elite-draw": _crossed(elite, rng.random((CROSSED, len(elite))) < 0.5, _some(draws, CROSSED, rng)),
         "part": _parts(_some(draws, PARTS, rng), rng),
         "random": _sparse(len(elite), rng),
     }
@@ -68,15 +77,17 @@ def pool(sample: Sample, elite: Floats, rng: np.random.Generator) -> tuple[Float
 
 def shaped(sample: Sample, genes: Floats, generation: int) -> Floats:
     """Return (B, A) faces as they may be shown: not too many genes at work early, none faint, none nearly invisible."""
-    shown = np.where(genes < FAINT, 0, genes)
+    raised = _raised(genes, LEAST_STRONGEST if composition_leads(sample) else VISIBLE)
+    shown = np.where(raised < FAINT, 0, raised)
     if generation <= EARLY and genes.shape[1] > MOST_ACTIVE:
         order = np.argsort(-shown, axis=1, kind="stable")
         np.put_along_axis(shown, order[:, MOST_ACTIVE:], 0, axis=1)
-    if composition_leads(sample):
-        strongest = shown.max(axis=1, keepdims=True)
-        raised = np.divide(LEAST_STRONGEST, strongest, out=np.ones_like(strongest), where=strongest > 0)
-        shown = shown * np.maximum(raised, 1)
     return on_grid(shown)
+
+
+def visible(face: Floats) -> bool:
+    """Return whether an (A,) face can be told from the neutral one."""
+    return bool(face.max() >= VISIBLE)
 
 
 def means_of_many(space: Space, sample: Sample, count: int, draws: int, rng: np.random.Generator) -> Floats:
@@ -86,12 +97,39 @@ def means_of_many(space: Space, sample: Sample, count: int, draws: int, rng: np.
 
 
 def _means(space: Space, sample: Sample, which: NDArray[np.intp]) -> Floats:
-    """Return the (B, A) mean directions of (B, n) draws, at the median norm of all."""
-    leading = COSINE if composition_leads(sample) else VERTEX
-    norms = np.sqrt(np.maximum(space.squares(np.full(len(sample.metric), leading), sample.genes), LEAST_SQUARE))
-    directions = (sample.genes / norms[:, None])[which].sum(axis=1)
-    lengths = np.sqrt(np.maximum(space.squares(np.full(len(which), leading), directions), LEAST_SQUARE))
-    return on_grid(directions * (np.median(norms) / lengths)[:, None])
+    """Return the (B, A) faces that stand for (B, n) draws each."""
+    if not composition_leads(sample):
+        return on_grid(np.sqrt(np.square(sample.genes)[which].mean(axis=1)))
+    squares = np.maximum(space.squares(np.full(len(sample.metric), COSINE), sample.genes), LEAST_SQUARE)
+    directions = (sample.genes / np.sqrt(squares)[:, None])[which].sum(axis=1)
+    return on_grid(directions * _strength(directions)[:, None])
+
+
+def _strength(faces: Floats) -> Floats:
+    """Return the (B,) factors that make faces as strong as their prior says of the genes that count in them.
+
+    ``n`` genes count, 1 over the sum of squared shares of the weights. Of ``n`` weights that are U(0, 1) the strongest
+    ``k`` have the mean ``1 - (k + 1) / (2 (n + 1))``; it is given to the strongest tenth, since they are known best.
+    """
+    totals = np.maximum(np.square(faces).sum(axis=1), LEAST_SQUARE)
+    counting = np.maximum(np.rint(np.square(faces.sum(axis=1)) / totals), 1)
+    strongest = np.ceil(counting * STRONGEST)
+    taken = np.arange(faces.shape[1]) < strongest[:, None]
+    sums = np.where(taken, -np.sort(-faces, axis=1), 0).sum(axis=1)
+    return np.asarray((strongest - strongest * (strongest + 1) / (2 * (counting + 1))) / np.maximum(sums, LEAST_SQUARE))
+
+
+def _raised(genes: Floats, least: float) -> Floats:
+    """Return (B, A) faces, the faint ones made stronger until their strongest gene has a weight; neutral ones stay."""
+    strongest = genes.max(axis=1, keepdims=True)
+    factors = np.divide(least, strongest, out=np.ones_like(strongest), where=strongest > 0)
+    return np.asarray(genes * np.maximum(factors, 1))
+
+
+def _crossed(elite: Floats, inherited: NDArray[np.bool_], draws: Floats) -> Floats:
+    """Return (B, A) faces with every gene from the elite or from a draw; the draw where nothing would be at work."""
+    mixed = np.where(inherited, elite, draws)
+    return np.asarray(np.where(mixed.any(axis=1, keepdims=True), mixed, draws))
 
 
 def _some(draws: Floats, count: int, rng: np.random.Generator) -> Floats:

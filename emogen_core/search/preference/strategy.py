@@ -1,8 +1,8 @@
 """The strategy on plain state: `tell` learns from a choice, `ask` makes the next ten faces of what was learned.
 
 The state keeps all faces that were shown, all choices, and the draws from the posterior. Learning is the slow part;
-since a server tells, asks and tells again, what was worked out last is kept, at most `REMEMBERED` results a process and
-function. Results do not depend on it.
+since a server tells, asks and tells again, a process keeps what the last `REMEMBERED` answers led to. Results do not
+depend on it.
 """
 
 from __future__ import annotations
@@ -16,7 +16,8 @@ import numpy as np
 from emogen_core.errors import InvalidInputError, expected
 from emogen_core.search.initial import initial_population
 from emogen_core.search.params import POPULATION
-from emogen_core.search.preference.learning import Turn, faces_of, learn
+from emogen_core.search.preference.ending import doubt, sure_enough
+from emogen_core.search.preference.learning import faces_of, learn, turn_of
 from emogen_core.search.preference.proposals import mean_face as mean_of
 from emogen_core.search.preference.sample import from_rows
 from emogen_core.search.preference.utility import space_of
@@ -35,8 +36,10 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 NAME = "preference"
-VERSION = 1
-REMEMBERED = 16
+VERSION = 2
+REMEMBERED = 48
+"""Answers: more than a server's 40 threads take at once, so that the write of each finds its own. They take less than a
+megabyte each."""
 
 
 def init(params: SearchParams, seed: int, attempt: int = 0) -> State:
@@ -67,6 +70,11 @@ def tell(params: SearchParams, state: State, choice: Choice) -> State:
     return _told(params, state, checked_choice(params, choice, POPULATION))
 
 
+def last(params: SearchParams, state: State) -> bool:
+    """Return whether `state.generation` is the last one: the study's most, or the first one after which it is sure."""
+    return state.generation >= params.generations or _sure(params, state)
+
+
 def mean_face(params: SearchParams, state: State) -> Floats:
     """Return the (G,) face that after the last answer is on average nearest to what is meant.
 
@@ -84,12 +92,14 @@ def estimate(params: SearchParams, state: State) -> Floats | None:
     return mean_face(params, state) if state.sample else None
 
 
-@lru_cache(maxsize=REMEMBERED)
+@lru_cache(maxsize=2 * REMEMBERED)  # of an answer, the faces before it and those after it
 def _shown(params: SearchParams, state: State, choice: Choice) -> Population:
     elite = np.array(state.previous[choice.elite - 1])[list(params.active)]
     rng = stream(state.seed, state.attempt, state.generation, PROPOSALS)
     sample = from_rows(state.sample)
-    faces, origins = faces_of(_space(params), sample, elite, Turn(state.generation, params.generations), rng)
+    choices = [answer.choice for answer in state.answers]
+    turn = turn_of(choices, params.generations, sure=_sure(params, state))
+    faces, origins = faces_of(_space(params), sample, elite, turn, rng)
     parents = tuple((choice.elite,) if origin in {"elite", "elite-draw"} else () for origin in origins)
     genes = _whole(params, faces)
     genes.flags.writeable = False  # shared by everyone who asks for them
@@ -104,6 +114,13 @@ def _told(params: SearchParams, state: State, choice: Choice) -> State:
     rng = stream(state.seed, state.attempt, told.generation, BELIEFS)
     (sample,) = learn(_space(params), [_faces(params, told.answers)], before, [rng])
     return replace(told, sample=sample.rows())
+
+
+def _sure(params: SearchParams, state: State) -> bool:
+    """Return whether the trial ends with `state.generation` since enough is known."""
+    if params.stop_at is None or not state.sample:
+        return False
+    return sure_enough(params, state.generation, doubt(_space(params), from_rows(state.sample)))
 
 
 def _faces(params: SearchParams, answers: Sequence[Answer]) -> list[tuple[Floats, Choice]]:

@@ -98,7 +98,7 @@ def observers(results: Results) -> Table:
     for label, observer in OBSERVERS.items():
         specs = [RunSpec(target, observer=observer) for target in TARGETS]
         last = [results.last(spec) for spec in specs]
-        right = 100 * float(np.mean([results.elites(spec).right.mean() for spec in specs]))
+        right = 100 * float(np.mean([results.elites(spec).accuracy for spec in specs]))
         rows.append(Row(label, (*(one.mean for one in last), last[-1].sd, right)))
     empty = [results.no_answer(RunSpec(target)) for target in TARGETS]
     rows.append(Row("no answer", (*empty, None, None)))

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from emogen_core.face.rig import Rig
     from emogen_core.search.params import SearchParams
-    from emogen_core.simulation.evaluation.specs import Algorithm, RunSpec, Selections
+    from emogen_core.simulation.evaluation.specs import Algorithm, ResultName, RunSpec, Selections
     from emogen_core.simulation.learners import Learned
 
     Genomes = NDArray[np.float64]
@@ -54,6 +54,7 @@ class Laboratory:
         pause: called before every batch of faces, by those who share a processor with people.
         drawn: (S, 10, G) fixed first populations one of which every search of a study draws; None without a choice.
         algorithm: of a study's own search, for what is simulated of it.
+        result: what that search ends with. With `estimate` it follows the best faces as one more.
         starts: fixed first populations by name, (10, G).
     """
 
@@ -64,6 +65,7 @@ class Laboratory:
     pause: Callable[[], object] | None = None
     drawn: Genomes | None = None
     algorithm: Algorithm = "emogen"
+    result: ResultName = "elite"
     starts: dict[str, Genomes] = field(init=False)
     _targets: dict[str, Genomes] = field(init=False)
     _made: dict[str, Made] = field(default_factory=dict, init=False)
@@ -120,7 +122,8 @@ class Laboratory:
 
     def meant(self, spec: RunSpec) -> Genomes:
         """Return the target of a run, as far as its search can reach it."""
-        return self.target(spec.target) * self._reach(spec)
+        target = self.target(spec.target)
+        return (target[: spec.minds] if spec.minds else target) * self._reach(spec)
 
     def even(self, spec: RunSpec) -> Genomes:
         """Return the (G,) genome in which all genes of a run are the same: nothing is known of what was meant."""
@@ -160,7 +163,8 @@ class Laboratory:
     def chunk(self, spec: RunSpec, number: int, searches: int) -> Elites:
         """Return one chunk of a run."""
         if spec.learns:
-            return self.learned(spec, number, searches).elites
+            made = self.learned(spec, number, searches)
+            return made.elites if self.result == "elite" else made.estimated
         return chunk(self.experiment(spec), spec.entropy(self.seed), number, searches)
 
     def learned(self, spec: RunSpec, number: int, searches: int) -> Learned:

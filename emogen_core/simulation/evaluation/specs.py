@@ -17,6 +17,10 @@ Selections = Literal["paper", "three", "elite"]
 """How many faces are selected: 2, then 4, then 5; always three; only the best."""
 Algorithm = Literal["emogen", "pressure", "preference"]
 """The published search; with more selection pressure; the one that learns from every choice."""
+LEARNING: frozenset[Algorithm] = frozenset({"preference"})
+"""Those that learn from every choice: a thousand times slower than the others, and with an estimate of their own."""
+ResultName = Literal["elite", "estimate"]
+"""What a search ends with: the face last chosen as best, or its own estimate of the face in mind."""
 
 
 @dataclass(frozen=True)
@@ -32,6 +36,7 @@ class RunSpec:
         algorithm: that searches.
         start: name of a fixed first population; empty for the protocol.
         genes: how many genes the search has, 0 for all; the target has no others then.
+        minds: of a target of one face a search, how many of the first there are, 0 for all.
     """
 
     target: str
@@ -42,6 +47,7 @@ class RunSpec:
     algorithm: Algorithm = "emogen"
     start: str = ""
     genes: int = 0
+    minds: int = 0
 
     @property
     def key(self) -> str:
@@ -51,7 +57,7 @@ class RunSpec:
     @property
     def learns(self) -> bool:
         """Return whether the search learns from every choice."""
-        return self.algorithm == "preference"
+        return self.algorithm in LEARNING
 
     @property
     def chunk(self) -> int:

@@ -19,7 +19,7 @@ from emogen_core.similarity.cosine import cosine_distance
 from emogen_core.simulation.evaluation.dispersion import Dispersion, dispersion, kept
 from emogen_core.simulation.evaluation.laboratory import MEAN_HAPPY
 from emogen_core.simulation.evaluation.results import Results, Spread, averaged, spread
-from emogen_core.simulation.evaluation.specs import RunSpec
+from emogen_core.simulation.evaluation.specs import LEARNING, RunSpec
 from emogen_core.simulation.evaluation.targets import EMOTIONS, PEOPLE
 from emogen_core.simulation.evaluation.work import make
 from emogen_core.simulation.observer import FAITHFUL, Observer
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
     from emogen_core.simulation.evaluation.laboratory import Laboratory
     from emogen_core.simulation.evaluation.specs import Algorithm
+    from emogen_core.simulation.runs import Elites
 
 SEARCHES = 500
 """As many as the paper's: ten for each of fifty people."""
@@ -50,11 +51,13 @@ class Noise:
         error: of a result to the face in mind.
         apart: of two results for the same face in mind.
         proxy: of a result to the mean of the other results for the same face in mind.
-        settling: of the best face of each generation but the last to the result of its search.
+        settling: of the best face of each generation but the last to the result of its search; of the searches that had
+            not ended by then.
         right: share of choices in which the face marked as best was the nearest one.
         within: how results for the same face in mind vary: by the search alone.
         among: how results of different people vary who mean the same emotion, each with a face of their own.
         kept: share of the squared distance between two faces in mind that arrives in results.
+        generations: mean of the last generations; the study's, unless trials may end early.
     """
 
     error: Spread
@@ -65,6 +68,7 @@ class Noise:
     within: Dispersion
     among: Dispersion
     kept: float
+    generations: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,9 +92,14 @@ class Threshold:
     paper: Spread
 
 
+def saving(generations: float, most: float) -> float:
+    """Return the percentage of choices that a trial saves which ends with a generation; the first faces count too."""
+    return 100 * (1 - (generations + 1) / (most + 1))
+
+
 def usual_searches(algorithm: Algorithm) -> int:
     """Return how many searches the noise of a strategy rests on where nobody asks for another number."""
-    return LEARNING_SEARCHES if RunSpec("people", algorithm=algorithm).learns else SEARCHES
+    return LEARNING_SEARCHES if algorithm in LEARNING else SEARCHES
 
 
 def threshold(laboratory: Laboratory, searches: int | None = None) -> Threshold:
@@ -116,48 +125,45 @@ def threshold(laboratory: Laboratory, searches: int | None = None) -> Threshold:
     return Threshold(count, faithful, noisy, random, results.no_answer(kinds[0]), paper)
 
 
-def convergence(laboratory: Laboratory, size: int, observer: Observer = FAITHFUL) -> tuple[Spread, ...]:
-    """Return, for every generation, how far best faces are from the mean of the results of others who mean the same.
+def apart(results: NDArray[np.float32], minds: int = PEOPLE) -> NDArray[np.float64]:
+    """Return the distances of every two of (R, K) results for the same face in mind; number i is for mind i % M."""
+    mine = results.reshape(-1, minds, results.shape[-1])
+    rows, columns = np.triu_indices(len(mine), 1)
+    return cosine_distance(mine[rows], mine[columns]).ravel()
 
-    The rougher that mean, the further they are: 0.26 with four others, 0.22 with fifty. So what a group of people is
-    held against has to be of its own size; the last of these is `Noise.proxy` for a size of ten.
+
+def from_others(faces: NDArray[np.float32], results: NDArray[np.float32], minds: int = PEOPLE) -> NDArray[np.float64]:
+    """Return how far (R, K) faces are from the mean of the (R, K) results of the other searches for the same mind.
 
     Args:
-        laboratory: as for `threshold`.
-        size: how many people mean the same face; 50 groups of them are simulated.
-        observer: how well they judge.
-
-    Raises:
-        InvalidInputError: fewer than two.
+        faces: of every search.
+        results: of every search; number i is for mind i % M.
+        minds: faces in mind.
     """
-    if size < 2:
-        raise InvalidInputError(f"size: {expected('at least 2', size)}")
-    spec = RunSpec("people", observer=observer, algorithm=laboratory.algorithm)
-    (elites,) = make(laboratory, [spec], size * PEOPLE).values()
-    return tuple(spread(_from_others(elites.weights[:, at], elites.final)) for at in range(elites.weights.shape[1]))
+    mine = results.reshape(-1, minds, results.shape[-1])
+    others = (mine.sum(0) - mine) / (len(mine) - 1)
+    return cosine_distance(faces, others.reshape(faces.shape))
 
 
 def _noise(results: Results, spec: RunSpec) -> Noise:
     elites = results.elites(spec)
-    final, before = elites.final, elites.weights[:, :-1]
-    mine = final.reshape(-1, PEOPLE, final.shape[-1])  # search i is for person i % 50
-    searches = np.arange(len(final))
+    final = elites.final
+    searches = np.arange(len(final))  # number i is for person i % 50
     emotions = searches // PEOPLE * len(EMOTIONS) + searches % PEOPLE % len(EMOTIONS)  # one result a person in each
-    rows, columns = np.triu_indices(len(mine), 1)
     return Noise(
         results.last(spec),
-        spread(cosine_distance(mine[rows], mine[columns]).ravel()),
-        spread(_from_others(final, final)),
-        tuple(spread(one) for one in cosine_distance(before, final[:, None]).T),
-        float(elites.right.mean()),
+        spread(apart(final)),
+        spread(from_others(final, final)),
+        _settling(elites),
+        elites.accuracy,
         dispersion(final, searches % PEOPLE),
         dispersion(final, emotions),
         kept(final, results.target(spec)),
+        float(elites.ended.mean()),
     )
 
 
-def _from_others(faces: NDArray[np.float32], results: NDArray[np.float32]) -> NDArray[np.float64]:
-    """Return how far (R, K) faces are from the mean of the results of the other searches for the same person."""
-    apart = results.reshape(-1, PEOPLE, results.shape[-1])  # search i is for person i % 50
-    others = (apart.sum(0) - apart) / (len(apart) - 1)
-    return cosine_distance(faces, others.reshape(faces.shape))
+def _settling(elites: Elites) -> tuple[Spread, ...]:
+    """Return how far the faces of each generation are from the results, of the searches that had not ended by then."""
+    distances, going = cosine_distance(elites.weights[:, :-1], elites.final[:, None]), elites.there[:, 1:]
+    return tuple(spread(one[some]) for one, some in zip(distances.T, going.T, strict=True) if some.any())

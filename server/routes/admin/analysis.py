@@ -26,7 +26,7 @@ POLICY = (
 @router.post("", response_model=None)
 async def begin(study: str, me: Me, form: OwnForm, house: Services) -> Response:
     """Have a report made."""
-    await run(house.analyses.begin, study, form.get("who", ""), me.user)
+    await run(house.analyses.begin, study, form.get("who", ""), me.user, form.get("result", "elite"))
     return RedirectResponse(f"/admin/studies/{study}/results#analysis", 303)
 
 
@@ -54,4 +54,4 @@ def files(study: str, me: Me, house: Services) -> Response:  # noqa: ARG001
 
 def standing(house: House, study: str) -> dict[str, Any]:
     """Return what the results page says of the report."""
-    return {"standing": house.analyses.of(study), "who": WHO}
+    return {"standing": house.analyses.of(study), "who": WHO, "results": house.analyses.results(study)}

@@ -105,6 +105,6 @@ def _page(  # noqa: PLR0913 - what the page shows
     desk, form = house.heads.desk, form or {}
     return page(
         "model_heads", status, me=me, section="heads", model=name, head=document, typed=form, problem=problem,
-        groups=desk.controls(name, document), emotions=desk.emotions(name), emotion=form.get("emotion", NEUTRAL),
+        modes=desk.controls(name, document), emotions=desk.emotions(name), emotion=form.get("emotion", NEUTRAL),
         picture=base64.b64encode(picture).decode(), seed=seed + 1, neutral=NEUTRAL,
     )  # fmt: skip

@@ -6,15 +6,20 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from emogen_core.search.params import MOST_STOP_AT
+
 from .base import Part, option
 
 Probability = Annotated[float, Field(ge=0, lt=1)]
 Population = tuple[tuple[Probability, ...], ...]
 
 
+LEARNS_ONLY = "Only preference can do so: it knows how sure it is."
 PAPER_ONLY = "Only the strategy of EmoGen 2021 has them."
 BREEDING = ("mutations", "random_genes", "random_faces")
 """Options that only that strategy has."""
+ENDING = ("stop_at", "least_generations")
+"""Options of strategies that know how sure they are."""
 
 
 class Search(Part):
@@ -27,6 +32,17 @@ class Search(Part):
         " preference: all choices of a trial together say which faces may be meant, and those are shown whose"
         " comparison tells most. Its own estimate of the face is stored beside the best one.",
     )
+    stop_at: float | None = option(
+        None, "Expected error that is enough",
+        "A face is finished before its last generation once the strategy expects its own estimate to be within this"
+        " cosine distance of what is meant; one more page of faces near to it is shown then. Empty: never."
+        f" {LEARNS_ONLY}",
+        later=True, gt=0, le=MOST_STOP_AT,
+    )  # fmt: skip
+    least_generations: int = option(
+        3, "Least generations", "A face that may be finished early has at least so many generations.", later=True,
+        ge=1, le=30,
+    )  # fmt: skip
     mutations: int = option(
         2, "Mutations", f"m: how many genes of a bred face are drawn anew. {PAPER_ONLY}", paper="2", ge=0, le=20
     )

@@ -14,7 +14,7 @@ from .base import Language, Line, Part, misfit, moved, option, together
 from .blocks import Block, Categorise, Evolve, Order, Rate
 from .conditions import FIXED, Condition, in_condition
 from .parts import Completion, Devices, Emotion, Head, Portrait, Question, Texts, Translation
-from .search import BREEDING, Search
+from .search import BREEDING, ENDING, Search
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -157,14 +157,17 @@ def _numbers(study: StudyConfig) -> Iterator[ValidationError]:
 
 
 def _search(study: StudyConfig) -> Iterator[ValidationError]:
-    """Refuse options that would have no effect."""
-    if study.search.strategy == "emogen":
-        return
-    for name in BREEDING:
-        usual, got = Search.model_fields[name].default, getattr(study.search, name)
+    """Refuse options that would have no effect, and a least that is above the most."""
+    search, paper = study.search, study.search.strategy == "emogen"
+    for name in ENDING if paper else BREEDING:
+        usual, got = Search.model_fields[name].default, getattr(search, name)
         if got != usual:
-            expected = f"{usual}, since it has no effect on the strategy {study.search.strategy}"
+            told = "nothing" if usual is None else usual
+            expected = f"{told}, since it has no effect on the strategy {search.strategy}"
             yield misfit("search", name, expected=expected, got=got)
+    if not paper and search.stop_at is not None and search.least_generations > study.generations:
+        expected = f"at most the generations per face, {study.generations}"
+        yield misfit("search", "least_generations", expected=expected, got=search.least_generations)
 
 
 def _emotions(study: StudyConfig) -> Iterator[ValidationError]:

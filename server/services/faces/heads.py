@@ -7,8 +7,6 @@ once, and is then remembered.
 
 from __future__ import annotations
 
-import threading
-from collections import OrderedDict
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -20,8 +18,9 @@ from emogen_core.rendering.worn import WornHead, worn_rig
 from emogen_core.rigs.default_look import appearance_of
 from emogen_core.rigs.identities import IDENTITIES, preset
 
-from ..errors import ConflictError, NotFoundError
+from ..errors import NotFoundError
 from .expressions import LARGE, NEUTRAL, SMALL, check_emotion, emotion_weights
+from .fitting_room import FittingRoom
 from .model_desk import ModelDesk
 from .refusal import refusal
 from .sketch import Sketch
@@ -41,8 +40,6 @@ if TYPE_CHECKING:
     Described: TypeAlias = Identity | dict[str, Any]
     """What a document describes: an identity, or the signed document of another face model's head."""
 
-_REMEMBERED = 4
-
 
 @dataclass(frozen=True)
 class Heads:
@@ -54,9 +51,7 @@ class Heads:
     models: FaceModels
     desk: ModelDesk = field(init=False)
     """Heads of other face models in the making."""
-    _tried: OrderedDict[str, tuple[WornHead, Rig]] = field(default_factory=OrderedDict)
-    _latest: dict[str, int] = field(default_factory=dict)
-    _lock: threading.Lock = field(default_factory=threading.Lock)
+    _room: FittingRoom[tuple[WornHead, Rig]] = field(default_factory=FittingRoom)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "desk", ModelDesk(self.wardrobe, self.portraits, self.models))
@@ -154,33 +149,21 @@ class Heads:
         if isinstance(identity, Mapping):
             return self.desk.preview(identity, emotion, user)
         check_emotion(self.rig, emotion)
-        head, rig = self._worn(identity, self._ticket(user), user, moving=emotion != NEUTRAL)
+        head, rig = self._worn(identity, user, moving=emotion != NEUTRAL)
         return self.portraits.sketched(Sketch(head.name, emotion_weights(rig, head.name, emotion), LARGE), head)
 
-    def _ticket(self, user: str) -> int:
-        with self._lock:
-            self._latest[user] = self._latest.get(user, 0) + 1
-            return self._latest[user]
-
-    def _worn(self, identity: Identity, ticket: int, user: str, *, moving: bool) -> tuple[WornHead, Rig]:
+    def _worn(self, identity: Identity, user: str, *, moving: bool) -> tuple[WornHead, Rig]:
+        wanted = self._room.turn(user)
         digest: str = self.signed(identity)["hash"]
         if ready := self.wardrobe.ready(worn_as(digest)):
             return ready
-        for key in (digest, *([] if moving else [f"{digest} still"])):
-            if worn := self._tried.get(key):
-                return worn
 
-        def wanted() -> None:
-            if self._latest[user] != ticket:
-                raise ConflictError("A newer preview was asked for.")
+        def made() -> tuple[WornHead, Rig]:
+            head = self.wardrobe.try_on(identity, wanted, moving=moving)
+            return head, worn_rig(self.rig, head)
 
-        head = self.wardrobe.try_on(identity, wanted, moving=moving)
-        worn = head, worn_rig(self.rig, head)
-        with self._lock:
-            self._tried[digest if moving else f"{digest} still"] = worn
-            while len(self._tried) > _REMEMBERED:
-                self._tried.popitem(last=False)
-        return worn
+        # A head that moves can also stand still.
+        return self._room.tried([digest] if moving else [f"{digest} still", digest], made)
 
 
 def _parsed(content: bytes) -> Any:

@@ -5,8 +5,6 @@ As `heads` does for the bundled space. A preview wears the very head that a stud
 
 from __future__ import annotations
 
-import threading
-from collections import OrderedDict
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -16,8 +14,9 @@ from emogen_core.face.model_identity import FORMAT, MARK, VERSION
 from emogen_core.face.modes import PLAUSIBLE
 from emogen_core.rigs.imported.heads import random_weights
 
-from ..errors import ConflictError, InvalidError, NotFoundError
+from ..errors import InvalidError, NotFoundError
 from .expressions import LARGE, NEUTRAL, check_emotion, emotion_weights
+from .fitting_room import FittingRoom
 from .head_form import Control
 from .sketch import Sketch
 
@@ -37,7 +36,6 @@ PREFIX = "mode."
 """Before the name of a mode among the fields of the form."""
 GROUP = 10
 """Sliders that stand together."""
-_REMEMBERED = 4
 
 
 @dataclass(frozen=True)
@@ -47,9 +45,7 @@ class ModelDesk:
     wardrobe: Wardrobe
     portraits: Portraits
     models: FaceModels
-    _tried: OrderedDict[str, tuple[WornHead, Rig]] = field(default_factory=OrderedDict)
-    _latest: dict[str, int] = field(default_factory=dict)
-    _lock: threading.Lock = field(default_factory=threading.Lock)
+    _room: FittingRoom[tuple[WornHead, Rig]] = field(default_factory=FittingRoom)
 
     def emotions(self, model: str) -> tuple[str, ...]:
         """Return neutral, and the emotions that a face model has prototypes of; raises `NotFoundError` as `start`."""
@@ -107,22 +103,9 @@ class ModelDesk:
         return self.portraits.sketched(Sketch(head.name, emotion_weights(rig, head.name, emotion), LARGE), head)
 
     def _worn(self, document: Mapping[str, Any], user: str) -> tuple[WornHead, Rig]:
-        with self._lock:
-            self._latest[user] = ticket = self._latest.get(user, 0) + 1
-            known = self._tried.get(f"{document['model']} {document['hash']}")
-        if known is not None:
-            return known
-
-        def wanted() -> None:
-            if self._latest[user] != ticket:
-                raise ConflictError("A newer preview was asked for.")
-
-        worn = self.wardrobe.anew(document, wanted)
-        with self._lock:
-            self._tried[f"{document['model']} {document['hash']}"] = worn
-            while len(self._tried) > _REMEMBERED:
-                self._tried.popitem(last=False)
-        return worn
+        wanted = self._room.turn(user)
+        key = f"{document['model']} {document['hash']}"
+        return self._room.tried([key], lambda: self.wardrobe.anew(document, wanted))
 
     def _signed(self, model: str, name: str, weights: Mapping[str, float]) -> dict[str, Any]:
         document = {"format": FORMAT, "version": VERSION, "name": name, "model": model, "modes": dict(weights)}

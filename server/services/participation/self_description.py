@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..config import Attention, Evolve
 from ..config.parts import LEAST_HEIGHT, LEAST_WIDTH
+from ..trials.evolve import may_end_early
 from .order import emotions_of
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ def study_words(config: StudyConfig, spoken: Spoken) -> dict[str, Any]:
         **spoken.texts.model_dump(),
         "title": spoken.title,
         "generations": config.generations,
+        "open": may_end_early(config),
         "practice": config.practice is not None,
         "example": _example(config),
         "emotions": [emotion.model_dump() for emotion in config.emotions],

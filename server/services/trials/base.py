@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     import numpy as np
     from numpy.typing import NDArray
@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     from ...store.runs_tables import Trial
     from .answer_bodies import AnswerBody
     from .walk import Walk
+
+    Later = Callable[[], "Faces"]
+    """Works faces out of what a transaction saw, once that is over: a search may learn for long. Raises EmogenError
+    where the search cannot go on so, which whoever takes the answer will say."""
 
 Faces = list[tuple[str, "NDArray[np.float64]"]]
 """Faces as head and genes (G,), for the correction to know ahead."""
@@ -44,12 +48,15 @@ class TrialType(Protocol):
         """
         ...
 
-    def rehearsed(self, walk: Walk, trial: Trial, body: AnswerBody | None) -> Faces:
-        """Return the faces that an answer will put on the screen, or without one those that the trial begins with."""
+    def rehearsed(self, walk: Walk, trial: Trial, body: AnswerBody | None) -> Later | None:
+        """Return the faces that an answer will put on the screen, or without one those that the trial begins with.
+
+        None where an answer makes none in this trial.
+        """
         ...
 
-    def concluded(self, walk: Walk, trial: Trial, body: AnswerBody) -> Faces:
-        """Return the faces that an answer which ends the trial has stored but not shown."""
+    def concluded(self, walk: Walk, trial: Trial, body: AnswerBody) -> Later | None:
+        """Return the faces that an answer which ends the trial has stored but not shown; None where it has none."""
         ...
 
     def played(self, told: Mapping[str, Any]) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from emogen_core.search.streams import option_of
 
 from ...store.runs_tables import Estimate, Face, Generation
 from ..clock import new_id, now
-from ..config.search import BREEDING
+from ..config.search import BREEDING, ENDING
 from ..errors import InvalidError
 from ..faces.sketch import Sketch, pack_genes, pack_weights, settings_of
 
@@ -67,7 +67,7 @@ def params_of(rig: Rig, config: StudyConfig, state: State | None = None) -> Sear
             generations=config.generations,
             minimum=1,
             maximum=config.maximum,
-            **_breeding(config),
+            **_own_options(config),
             activation=search.activation,
             initialisation=search.initialisation,
             fixed_population=population,
@@ -78,10 +78,12 @@ def params_of(rig: Rig, config: StudyConfig, state: State | None = None) -> Sear
         raise InvalidError(f"The study does not fit the face model: {error}.", field="search") from error
 
 
-def _breeding(config: StudyConfig) -> dict[str, int]:
-    """Return the options that only the paper's search has, for it."""
+def _own_options(config: StudyConfig) -> dict[str, Any]:
+    """Return the options that only the study's strategy has: for the others they stay what they are by default."""
     search = config.search
-    return {name: getattr(search, name) for name in BREEDING} if search.strategy == emogen.NAME else {}
+    if search.strategy == emogen.NAME:
+        return {name: getattr(search, name) for name in BREEDING}
+    return {} if search.stop_at is None else {name: getattr(search, name) for name in ENDING}
 
 
 def simulated(rig: Rig, config: StudyConfig) -> tuple[SearchParams, NDArray[np.float64] | None]:
@@ -154,6 +156,11 @@ class Evolution:
         )
         population = self._strategy.ask(self._params(state), state)
         return generation, self._faces(trial, generation, population, self.places(state))
+
+    def last_early(self, trial: Trial, state: State) -> int | None:
+        """Return the generation that `state` asks for if it is the trial's last one before the study's most."""
+        early = not trial.practice and state.generation < self.config.generations
+        return state.generation if early and self._strategy.last(self._params(state), state) else None
 
     def estimate(self, trial: Trial, state: State) -> Estimate | None:
         """Return the row of the face that all answers of `state` speak for; None where the search weighs none."""

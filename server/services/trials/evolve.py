@@ -12,14 +12,14 @@ from .answer_bodies import ChoiceAnswer, RatingAnswer, ResetAnswer
 from .fields import POINTS
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from emogen_core.search import State
 
     from ...store.runs_tables import Face, Generation, Trial
     from ..config import StudyConfig
     from .answer_bodies import AnswerBody
-    from .base import Faces
+    from .base import Later
     from .walk import Walk
 
 ATTEMPTS = 50
@@ -55,13 +55,13 @@ class _Evolve:
             case RatingAnswer():
                 _rating(walk, trial, body)
 
-    def rehearsed(self, walk: Walk, trial: Trial, body: AnswerBody | None) -> Faces:
-        state = walk.evolution.begin(trial, 0) if body is None else _following(walk, trial, body)
-        return [] if state is None else walk.evolution.asked(trial, state)
+    def rehearsed(self, walk: Walk, trial: Trial, body: AnswerBody | None) -> Later | None:
+        following = _beginning(walk, trial, 0) if body is None else _following(walk, trial, body)
+        return None if following is None else lambda: walk.evolution.asked(trial, following())
 
-    def concluded(self, walk: Walk, trial: Trial, body: AnswerBody) -> Faces:
-        told = _told(walk, trial, body) if _final(walk, trial) else None
-        return [] if told is None else walk.evolution.estimated(trial, walk.evolution.tell(trial, *told))
+    def concluded(self, walk: Walk, trial: Trial, body: AnswerBody) -> Later | None:
+        told = _telling(walk, trial, body) if _final(walk, trial) else None
+        return None if told is None else lambda: walk.evolution.estimated(trial, told())
 
     def played(self, told: Mapping[str, Any]) -> dict[str, Any]:
         rating = told["rating"]
@@ -73,8 +73,15 @@ EVOLVE = _Evolve()
 
 
 def last_generation(config: StudyConfig, trial: Trial) -> int:
-    """Return the generation whose best face ends the trial: the first one already when practising."""
-    return 0 if trial.practice else config.generations
+    """Return the generation whose best face ends the trial, as far as that is known: the first one when practising."""
+    if trial.practice:
+        return 0
+    return config.generations if trial.last_generation is None else trial.last_generation
+
+
+def may_end_early(config: StudyConfig) -> bool:
+    """Return whether trials of a study may end before its last generation."""
+    return config.search.stop_at is not None and config.search.least_generations < config.generations
 
 
 def _offer(walk: Walk, trial: Trial, state: State) -> None:
@@ -84,6 +91,7 @@ def _offer(walk: Walk, trial: Trial, state: State) -> None:
     runs.add(walk.tx, generation)
     runs.add_all(walk.tx, faces)
     trial.attempt, trial.generation = state.attempt, state.generation
+    trial.last_generation = walk.evolution.last_early(trial, state)
     trial.state = walk.evolution.dump(state)
     walk.offered.extend(faces)
 
@@ -99,10 +107,11 @@ def _trial_state(walk: Walk, trial: Trial) -> dict[str, Any]:
         "noun": walk.config.emotion(trial.emotion).noun,
         "generation": trial.generation,
         "generations": last,
+        "open": may_end_early(walk.config) and not _final(walk, trial),
         "attempt": trial.attempt,
         "minimum": minimum,
         "maximum": maximum,
-        "final": trial.generation >= last,
+        "final": _final(walk, trial),
         "reset": _may_reset(walk, trial),
         "none_is_close": walk.config.none_is_close,
         "pause_ms": walk.config.pause_ms,
@@ -263,22 +272,26 @@ def _rating(walk: Walk, trial: Trial, body: RatingAnswer) -> None:
     walk.enter(trial.position + 1)
 
 
-def _following(walk: Walk, trial: Trial, body: AnswerBody) -> State | None:
-    """Return the state that an answer leads to within this trial, if it does."""
+def _following(walk: Walk, trial: Trial, body: AnswerBody) -> Callable[[], State] | None:
+    """Return what works out the state that an answer leads to within this trial, if it does."""
     if isinstance(body, ResetAnswer):
-        return walk.evolution.begin(trial, trial.attempt + 1) if _current(trial, body) else None
-    told = None if _final(walk, trial) else _told(walk, trial, body)
-    return None if told is None else walk.evolution.tell(trial, *told)
+        return _beginning(walk, trial, trial.attempt + 1) if _current(trial, body) else None
+    return None if _final(walk, trial) else _telling(walk, trial, body)
 
 
-def _told(walk: Walk, trial: Trial, body: AnswerBody) -> tuple[list[int], int] | None:
-    """Return the slots that a choice among the faces on the screen names, and that of the best; None for all else."""
+def _beginning(walk: Walk, trial: Trial, attempt: int) -> Callable[[], State]:
+    return lambda: walk.evolution.begin(trial, attempt)
+
+
+def _telling(walk: Walk, trial: Trial, body: AnswerBody) -> Callable[[], State] | None:
+    """Return what works out the state after a choice among the faces on the screen; None for all else."""
     if not isinstance(body, ChoiceAnswer) or not _current(trial, body):
         return None
     slots = {face.id: face.slot for face in runs.faces_on_screen(walk.tx, trial)}
     if body.elite not in slots or not set(body.selected) <= set(slots):
         return None
-    return [slots[face] for face in body.selected], slots[body.elite]
+    selected, elite = [slots[face] for face in body.selected], slots[body.elite]
+    return lambda: walk.evolution.tell(trial, selected, elite)
 
 
 def _current(trial: Trial, body: ChoiceAnswer | ResetAnswer) -> bool:

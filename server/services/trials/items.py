@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from ...store.runs_tables import Stimulus, Trial
     from .answer_bodies import AnswerBody
-    from .base import Faces
+    from .base import Later
     from .fields import Field, Value
     from .walk import Walk
 
@@ -87,13 +87,13 @@ class Items(ABC):
         else:
             walk.finish(outcome)
 
-    def rehearsed(self, walk: Walk, trial: Trial, body: AnswerBody | None) -> Faces:  # noqa: ARG002
+    def rehearsed(self, walk: Walk, trial: Trial, body: AnswerBody | None) -> Later | None:  # noqa: ARG002
         """Return the faces to correct ahead: none, unless there are faces to be made."""
-        return []
+        return None
 
-    def concluded(self, walk: Walk, trial: Trial, body: AnswerBody) -> Faces:  # noqa: ARG002
+    def concluded(self, walk: Walk, trial: Trial, body: AnswerBody) -> Later | None:  # noqa: ARG002
         """Return none: all that is stored was shown."""
-        return []
+        return None
 
     def played(self, told: Mapping[str, Any]) -> dict[str, Any]:
         """Return an acceptable answer."""

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ...store.runs_tables import Trial
     from ..config import Categorise, Rate
     from .answer_bodies import AnswerBody
-    from .base import Faces
+    from .base import Later
     from .stimuli import Shown
     from .walk import Walk
 
@@ -44,11 +44,12 @@ class Judging(Items):
         known = {emotion.adjective: emotion for emotion in walk.config.emotions}
         return {"emotion": meant, "noun": known[meant].noun if meant in known else meant}
 
-    def rehearsed(self, walk: Walk, trial: Trial, body: AnswerBody | None) -> Faces:
+    def rehearsed(self, walk: Walk, trial: Trial, body: AnswerBody | None) -> Later | None:
         """Return the faces that have to be corrected: means and named ones."""
         if body is not None:
-            return []
-        return [(face.identity, face.genes) for face in chosen(walk, trial, walk.block(trial, self.BLOCK).faces)]
+            return None
+        faces = [(face.identity, face.genes) for face in chosen(walk, trial, walk.block(trial, self.BLOCK).faces)]
+        return lambda: faces
 
 
 def _row(walk: Walk, trial: Trial, item: int, face: Shown) -> Stimulus:

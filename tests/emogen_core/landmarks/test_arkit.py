@@ -1,6 +1,7 @@
 """The table of ARKit's coefficients."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,7 @@ RIG = load_bundled_rig()
 
 def test_all_52_have_a_place_or_are_named():
     assert len(TABLE) == 52
-    assert unserved(TABLE) == ["mouthClose"]
+    assert unserved(RIG, TABLE) == ["mouthClose"]
     shapes = [shape for shapes in TABLE.values() for shape in shapes]
     assert len(set(shapes)) == len(shapes)
     assert set(shapes) <= set(RIG.core_shapes)
@@ -65,8 +66,21 @@ def test_what_is_no_coefficient_is_refused(value):
 def test_other_names_and_rigs_are_refused():
     with pytest.raises(InvalidInputError, match="ARKit names, as jawOpen, got 'jawWide'"):
         core_weights(RIG, {"jawWide": 1})
-    with pytest.raises(InvalidInputError, match=r"rig: expected the shapes of the bundled rig.*jawOpen"):
+    with pytest.raises(InvalidInputError, match=r"rig: expected shapes named as the bundled rig's.*jawOpen"):
         core_weights(small_rig(), {"jawOpen": 1})
+
+
+def test_an_imported_rig_takes_what_it_has_and_names_the_rest():
+    """Shapes of the table first; else a shape of ARKit's own name, as an import leaves `mouthFunnel`."""
+    kept = tuple("mouthFunnel" if name == "funnelUpper" else name for name in RIG.core_shapes if name != "funnelLower")
+    kept = tuple(name for name in kept if name not in {"browInnerUp.R", "tongueOut"})
+    theirs = replace(RIG, core_shapes=kept)
+    given = {"mouthFunnel": 0.7, "browInnerUp": 0.3, "tongueOut": 1.0, "jawOpen": 0.4}
+    core = dict(zip(kept, core_weights(theirs, given), strict=True))
+    assert {name: weight for name, weight in core.items() if weight} == {
+        "mouthFunnel": 0.7, "browInnerUp.L": 0.3, "jawOpen": 0.4,
+    }  # fmt: skip
+    assert unserved(theirs, given) == ["tongueOut"]
 
 
 def test_the_documentation_has_the_table():

@@ -1,7 +1,11 @@
 """The bank: thirty expressions, six of them full emotions."""
 
-import numpy as np
+from dataclasses import replace
 
+import numpy as np
+import pytest
+
+from emogen_core.errors import InvalidInputError
 from emogen_core.face.evaluate import vertices
 from emogen_core.landmarks.bank import SIZE, bank_genes, make_bank, mixtures
 
@@ -36,3 +40,8 @@ def test_another_head_has_other_motions(head, bank):
 
     other = make_bank(driven_head(head.rig, "asian-male-old"), bank_genes(head.rig)[:2])
     assert np.abs(other.motions - bank.motions[:2]).max() > 0.1
+
+
+def test_a_rig_without_emotions_has_no_bank(head):
+    with pytest.raises(InvalidInputError, match="bank: expected a rig with emotion sets"):
+        bank_genes(replace(head.rig, emotion_sets={}))

@@ -1,6 +1,7 @@
 """Every point lies where its name says, on every head."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -8,12 +9,12 @@ import pytest
 
 from emogen_core.errors import InvalidInputError
 from emogen_core.face.bundled import load_bundled_rig
-from emogen_core.landmarks.points import NAMES, PAIRS, feature_points, point_rows
+from emogen_core.landmarks.points import NAMES, PAIRS, bundled_points, is_bundled_mesh, point_rows
 from emogen_core.rendering.camera import chin_point
 from tests.rig_factory import full_rig, small_rig
 
 RIG = load_bundled_rig()
-POINTS = {point.name: point for point in feature_points(RIG)}
+POINTS = {point.name: point for point in bundled_points(RIG)}
 
 
 def test_there_are_56_in_the_order_of_the_standard():
@@ -85,8 +86,10 @@ def test_names_become_rows():
 
 @pytest.mark.parametrize("rig", [small_rig(), full_rig()])
 def test_another_mesh_is_refused(rig):
-    with pytest.raises(InvalidInputError, match="the bundled mesh of 14528 vertices"):
-        feature_points(rig)
+    with pytest.raises(InvalidInputError, match="expected the bundled mesh, got"):
+        bundled_points(rig)
+    turned = replace(RIG, triangles=RIG.triangles[:, [0, 2, 1]])
+    assert (is_bundled_mesh(RIG), is_bundled_mesh(turned), len(turned.mirror)) == (True, False, len(RIG.mirror))
 
 
 def test_the_documentation_lists_every_point():

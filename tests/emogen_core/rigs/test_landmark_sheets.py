@@ -6,7 +6,7 @@ import pytest
 from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.landmarks.points import NAMES
 from emogen_core.rendering.protocol import RenderSettings
-from emogen_core.rendering.setup import make_renderer
+from emogen_core.rendering.setup import bundled_look, make_renderer
 from emogen_core.rigs.contact import Frame
 from emogen_core.rigs.landmark_head import driven_head
 from emogen_core.rigs.landmark_sheet import points_picture
@@ -29,7 +29,7 @@ def renderer():
 
 @pytest.mark.gl
 def test_every_point_is_drawn_and_stays_visible(renderer, head):
-    picture = np.asarray(points_picture(renderer, head, 900)).astype(int)
+    picture = np.asarray(points_picture(renderer, head, bundled_look(), 900)).astype(int)
     red = (np.abs(picture - RED).max(2) < 12).sum()
     one_dot = np.pi * (6 * 900 / 1500) ** 2
     assert red > 0.5 * len(NAMES) * one_dot

@@ -5,7 +5,7 @@ import pytest
 
 from emogen_core.errors import InvalidInputError
 from emogen_core.face.bundled import load_bundled_rig
-from emogen_core.rigs.target_head import aligned, read_positions, target_head
+from emogen_core.rigs.target_head import aligned, read_mesh, target_head
 
 RIG = load_bundled_rig()
 MALE = RIG.neutral("male").astype(np.float64)
@@ -46,18 +46,18 @@ def test_place_size_and_turn_do_not_matter(tmp_path):
 @pytest.mark.parametrize("line", ["v {} {} {}", "v  {}  {} {} 1.0", "v {} {} {} 0.2 0.3 0.4", "v\t{}\t{}\t{}"])
 def test_dialects_are_read(tmp_path, line):
     mesh = MALE[:5].round(4)
-    np.testing.assert_allclose(read_positions(obj(tmp_path / "a.obj", mesh, line)), mesh)
+    np.testing.assert_allclose(read_mesh(obj(tmp_path / "a.obj", mesh, line)).vertices, mesh)
 
 
 @pytest.mark.parametrize(
     ("mesh", "said"),
     [
         (MALE[:-1], "target: expected 14528 vertices, got 14527; it has to be the rig's mesh"),
-        (MALE[:0], "target: expected 14528 vertices, got 0"),
+        (MALE[:0], r"a.obj: expected vertices \(v\) and faces \(f\), got 0"),
         (MALE[::-1], "target: expected the rig's vertices in the rig's order, got .* % of the head's size away"),
         (
             np.where(np.arange(len(MALE))[:, None] == 3, np.nan, MALE),
-            r"target: expected finite positions, got .*vertex 3",
+            r"a.obj: expected finite coordinates, got .*vertex 3",
         ),
         (np.ones_like(MALE), "target: expected a head, got 'all vertices in one place'"),
     ],
@@ -67,10 +67,10 @@ def test_another_mesh_is_refused(tmp_path, mesh, said):
         target_head(RIG, str(obj(tmp_path / "a.obj", mesh)))
 
 
-@pytest.mark.parametrize("text", ["v 1 2\nv 1 2 3\n", "v a b c\n", "v 1 2 3\nv 1 2\n"])
+@pytest.mark.parametrize("text", ["v 1 2\nv 1 2 3\nf 1 2 1\n", "v a b c\nf 1 1 1\n", "v 1 2 3\nv 1 2\nf 1 1 2\n"])
 def test_what_is_no_number_is_refused(tmp_path, text):
     (tmp_path / "a.obj").write_text(text)
-    with pytest.raises(InvalidInputError, match=r"^target: expected three numbers after each v of an OBJ file, got"):
+    with pytest.raises(InvalidInputError, match=r"^a.obj: expected"):
         target_head(RIG, str(tmp_path / "a.obj"))
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from emogen_core.correctives.pipeline import combined_weights
 from emogen_core.errors import InvalidInputError
 from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.face.rig_file import check_rig_content
@@ -85,6 +86,20 @@ def test_expressions_teach_core_shapes_and_leave_correctives():
     made = transferred(small, Target(neutral, shown, weights), "me")
     assert np.allclose(made.offsets[:2], 1.2 * small.offsets[:2], atol=1e-2)
     assert np.allclose(made.offsets[2:], small.offsets[2:], atol=1e-5)
+
+
+def test_an_expression_of_two_genes_shows_their_corrective_too():
+    """Such an expression, as the rig itself makes it, teaches that nothing is different."""
+    small = full_rig()
+    first, second = (small.gene_to_core[row].argmax() for row in small.combination_parents[0])
+    core = np.zeros((1, len(small.core_shapes)))
+    core[0, [first, second]] = 1
+    worn = combined_weights(small, core.astype(np.float32))
+    assert worn[0, len(small.core_shapes) :].any()
+    neutral = small.neutral("female").astype(float)
+    shown = neutral + np.tensordot(worn.astype(float), small.offsets, 1)
+    made = transferred(small, Target(neutral, shown, core), "me")
+    assert np.allclose(made.offsets, small.offsets, atol=1e-4)
 
 
 def test_a_space_of_another_mesh_is_refused(rig):

@@ -15,6 +15,9 @@ from tests.rig_factory import small_rig
     ("option", "value"),
     [
         ("generations", 0),
+        ("stop_at", 0.0),
+        ("stop_at", 0.51),
+        ("stop_at", float("nan")),
         ("minimum", 0),
         ("maximum", 11),
         ("mutations", -1),
@@ -28,6 +31,13 @@ from tests.rig_factory import small_rig
 def test_impossible_settings_name_the_field(option: str, value: object) -> None:
     with pytest.raises(InvalidInputError, match=option):
         space(**{option: value})
+
+
+@pytest.mark.parametrize("least", [0, 6])
+def test_a_trial_that_may_end_early_has_a_first_generation_on_which_it_may(least: int) -> None:
+    with pytest.raises(InvalidInputError, match="least_generations"):
+        space(generations=5, stop_at=0.1, least_generations=least)
+    assert space(generations=2).least_generations > 2, "of no concern to a trial that does not"
 
 
 @pytest.mark.parametrize("genomes", [(), ((0.5,) * GENES,) * 9, ((1.0,) * GENES,) * 10])

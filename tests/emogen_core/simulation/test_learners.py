@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -12,7 +13,7 @@ from emogen_core.search.params import search_params
 from emogen_core.similarity.cosine import cosine_distance
 from emogen_core.simulation.learners import learned, trial_seed
 from emogen_core.simulation.observer import Observer
-from emogen_core.simulation.runs import Experiment
+from emogen_core.simulation.runs import Elites, Experiment
 from tests.rig_factory import small_rig
 
 RIG = small_rig()
@@ -64,6 +65,36 @@ def test_somebody_who_never_errs_marks_the_nearest_and_ends_near_what_was_meant(
     assert (np.diff(errors, axis=1) <= 1e-6).all(), "the elite is shown again"
     assert errors[:, -1].mean() < 0.6 * errors[:, 0].mean()
     assert found.shown.shape == (8, 3, 10, 8)
+
+
+def test_a_search_that_is_sure_ends_as_the_strategy_does_and_the_others_go_on() -> None:
+    params = replace(PARAMS, generations=5, stop_at=0.075, least_generations=2)
+    found = learned(replace(experiment(Observer()), params=params), 5, range(4))
+    assert len(set(found.elites.ended.tolist())) > 1, "they end at different times, or nothing is shown"
+    for i, ended in enumerate(found.elites.ended):
+        state, meant = preference.init(params, trial_seed(5, i)), FACES(TARGETS[i % 2][None])
+        for generation in range(ended + 1):
+            assert preference.last(params, state) == (generation == ended)
+            genes = preference.ask(params, state).genes
+            assert np.array_equal(genes.astype(np.float32), found.shown[i, generation])
+            count = 1 if generation == ended else 2 if generation == 0 else 4
+            ranks = np.argsort(cosine_distance(FACES(genes), meant), kind="stable")[:count] + 1
+            state = preference.tell(params, state, Choice(tuple(ranks.tolist()), int(ranks[0])))
+        mean = FACES(preference.mean_face(params, state)[None])[0]
+        assert np.array_equal(genes[ranks[0] - 1], found.elites.genes[i])
+        for told, last in (
+            (found.elites.weights[i], FACES(genes)[ranks[0] - 1]),
+            (found.means[i], mean),
+            (found.shown[i], genes.astype(np.float32)),
+        ):
+            assert all(np.array_equal(one, last) for one in told[ended:]), "told again after its end"
+        assert (found.doubt[i, ended - 1] <= 0.075) == (ended < 5)
+
+
+def test_only_choices_that_were_made_count_as_right_or_wrong() -> None:
+    right = np.array([[True, False, False], [True, True, True]])
+    elites = Elites(np.zeros((2, 1)), np.zeros((2, 3, 1), np.float32), right, np.array([1, 2]))
+    assert elites.accuracy == 4 / 5
 
 
 def test_another_seed_is_another_search() -> None:

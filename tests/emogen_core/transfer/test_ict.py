@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from emogen_core.rigs.target_head import read_positions
+from emogen_core.rigs.target_head import read_mesh
 from emogen_core.transfer.blendshapes import METHODS, Template, Training, transfer
 from emogen_core.transfer.packing.pack import pack
 from emogen_core.transfer.packing.template import Template as Packed
@@ -35,8 +35,8 @@ def folder():
 def model(folder):
     known = json.loads((folder / "vertex_indices.json").read_text())["expressions"]
     names = tuple(name for name in known if (folder / f"{name}.obj").is_file())
-    neutral = 10 * read_positions(folder / "generic_neutral_mesh.obj")[:FACE]
-    offsets = np.array([10 * read_positions(folder / f"{name}.obj")[:FACE] - neutral for name in names])
+    neutral = 10 * read_mesh(folder / "generic_neutral_mesh.obj").vertices[:FACE]
+    offsets = np.array([10 * read_mesh(folder / f"{name}.obj").vertices[:FACE] - neutral for name in names])
     return names, Template(neutral, offsets, triangles_of(folder / "generic_neutral_mesh.obj"))
 
 
@@ -46,7 +46,7 @@ def test_expressions_of_another_person_teach_the_shapes(folder, model):
     weights = pack(Packed(names, template.neutral, template.offsets, template.triangles, gaze=gaze)).weights
     found = {method: [] for method in METHODS}
     for seed in range(HEADS):
-        identity = 10 * read_positions(folder / f"identity00{seed}.obj")[:FACE]
+        identity = 10 * read_mesh(folder / f"identity00{seed}.obj").vertices[:FACE]
         neutral, true = synthetic_head(identity, template.offsets, np.random.default_rng(seed))
         training = Training(weights, neutral + np.tensordot(weights, true, 1))
         for method, rows in found.items():

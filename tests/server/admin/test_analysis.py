@@ -8,6 +8,7 @@ import pytest
 from starlette.testclient import TestClient
 
 from server.app import create_app
+from tests.conftest import small_study
 from tests.server.admin.test_account import owner, post, visitor  # noqa: F401
 from tests.server.services.reports.analyses.test_analyses import analyses  # noqa: F401
 from tests.server.walker import Walker
@@ -51,6 +52,22 @@ def test_a_report_is_asked_for_read_and_downloaded(owner, study, results, base, 
         assert "report.html" in files.namelist()
     Walker(owner, study.links[0]).finish()
     assert "Answers have come or gone since." in owner.get(results).text
+
+
+def test_of_a_search_that_learns_which_faces_can_be_chosen(owner, house, results, analyses):  # noqa: F811
+    assert 'name="result"' not in owner.get(results).text
+    learning = house.studies.create(small_study(search={"strategy": "preference", "activation": (2, 3)}))
+    Walker(owner, learning.links[0]).finish()
+    place = f"/admin/studies/{learning.id}"
+    analyses.make.gate.clear()
+    post(owner, f"{place}/analysis", f"{place}/results", who="people", result="estimate")
+    assert "some minutes since the search learns" in owner.get(f"{place}/analysis/state").text
+    analyses.make.gate.set()
+    analyses.settle()
+    page = owner.get(f"{place}/results").text
+    assert "of 1 who completed, the search’s own estimates." in page
+    assert '<option value="estimate" selected>' in page
+    assert post(owner, f"{place}/analysis", f"{place}/results", who="people", result="odd").status_code == 422
 
 
 def test_a_report_can_do_nothing_but_be_read(owner, study, results, base, analyses):  # noqa: F811

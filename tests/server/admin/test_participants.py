@@ -78,6 +78,7 @@ def test_the_search_s_own_estimate_is_shown_and_every_origin_explained(owner, ho
     study = house.studies.create(small_study(search={"strategy": "preference", "activation": (2, 3)}))
     Walker(owner, study.links[0]).finish()
     page = owner.get(f"/admin/studies/{study.id}/participants/0")
+    assert "reload in some minutes" in page.text, "its noise takes that long to simulate"
     (path,) = re.findall(r'src="([^"]+)"[^>]* alt="The search’s own estimate', page.text)
     assert owner.get(path).headers["content-type"] == "image/png"
     used = set(re.findall(r'<span class="origin">([a-z]+)<', page.text))

@@ -2,12 +2,15 @@
 
 import html
 import re
+from dataclasses import replace
 
 import pytest
 
 from emogen_core.search import preference
 from emogen_core.search.strategies import STRATEGIES
+from tests.conftest import small_study
 from tests.server.admin.test_account import owner, visitor  # noqa: F401
+from tests.server.analysis.made import threshold
 
 
 @pytest.fixture
@@ -48,3 +51,19 @@ def test_the_own_strategy_comes_first_and_the_other_is_simulated_too(house, stud
     found = house.planning.of(study.id)
     assert asked == [one.strategy for one in found] == ["emogen", "preference"]
     assert [one.own for one in found] == [True, False]
+
+
+def test_a_study_whose_trials_may_end_early_is_told_what_that_saves(owner, house, monkeypatch):  # noqa: F811
+    search = {"strategy": "preference", "stop_at": 0.1, "least_generations": 2}
+    study = house.studies.create(small_study(generations=9, search=search))
+    noise = threshold()
+    faithful, noisy = replace(noise.faithful, generations=3.0), replace(noise.noisy, generations=6.5)
+    found = replace(noise, faithful=faithful, noisy=noisy)
+    monkeypatch.setattr(type(house.noise), "of", lambda *_: found)
+    own, other = house.planning.of(study.id)
+    assert own.savings == (("people who never err", 3.0, 60.0), ("a noise of .1", 6.5, 25.0))
+    assert other.savings == (), "the published search goes on to its end"
+    page = html.unescape(owner.get(f"/admin/studies/{study.id}/planning").text)
+    assert "people who never err end with generation 3.0 on average, which saves 60 % of the choices" in page
+    assert "a noise of .1 ends with generation 6.5 on average, which saves 25 %" in page
+    assert "end early" not in owner.get(f"/admin/studies/{house.studies.create(small_study()).id}/planning").text

@@ -58,7 +58,7 @@ def spread(mean):
 
 def noise(level):
     vary = Dispersion(level, 10.0)
-    return Noise(spread(level), spread(level + 0.1), spread(level + 0.05), (), 1.0, vary, vary, 0.5)
+    return Noise(spread(level), spread(level + 0.1), spread(level + 0.05), (), 1.0, vary, vary, 0.5, 10.0)
 
 
 def threshold(level=0.05):
@@ -83,7 +83,7 @@ def recording(*parts, searches=None, judgements=None):
         searches=keys, seeds=("1",) * len(faces),
         configs={key: small_study(generations=GENERATIONS) for key in dict.fromkeys(keys.tolist())},
         studies=(), config_hashes=("c0",), algorithms=("emogen/1",), counted=faces.person_count, simulated=0,
-        left_out={"not complete": 2}, judgements=judgements or nothing,
+        left_out={"not complete": 2}, judgements=judgements or nothing, chosen=faces,
     )  # fmt: skip
 
 

@@ -11,6 +11,7 @@ import pytest
 from server.analysis.files import comma_separated, plain
 from server.analysis.methods import REFERENCES, methods
 from server.analysis.sections import sections
+from tests.conftest import small_study
 from tests.server.analysis.made import FACTS, context, made, template
 from tests.server.analysis.test_people import MINDS, judged
 
@@ -125,3 +126,24 @@ def test_a_search_that_is_not_the_paper_s_says_so_and_cites_its_own():
     assert "The search preference/1 makes the next faces not by the genetic algorithm" in text
     assert REFERENCES["Brochu et al., 2007"] in text
     assert "Brochu" not in before
+
+
+def test_of_the_result_estimate_the_text_says_what_was_analysed():
+    told = context(made(template(1), 6))
+    texts = [
+        " ".join(methods(told, [], replace(FACTS, algorithms=("preference/1",), result=result)))
+        for result in ("elite", "estimate")
+    ]
+    assert "are those last chosen as best" in texts[0] and "are the estimates" not in texts[0]
+    assert "are the estimates of that search" in texts[1] and "last chosen as best" not in texts[1]
+
+
+def test_where_trials_may_end_early_the_text_says_when():
+    told = context(made(template(0), 3), made(template(0), 3, emotion="b"))
+    search = {"strategy": "preference", "stop_at": 0.15, "least_generations": 2}
+    early = small_study(generations=7, search=search)
+    recorded = replace(told.recording, configs=dict.fromkeys(told.recording.configs, early))
+    text = "\n".join(methods(replace(told, recording=recorded), [], FACTS))
+    assert "With at most 7 generations and" in text
+    assert "from 2 on, before which the search expects its own estimate to be within a cosine distance of 0.15" in text
+    assert "at most" not in "\n".join(methods(told, [], FACTS))

@@ -1,12 +1,15 @@
 """Distances to the mean of the others beside simulated groups of the same size."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy import stats
 
 from emogen_core.similarity.cosine import cosine_distance
-from server.analysis.others import converging, proxies
-from server.analysis.simulated import MOST
+from server.analysis.others import SIZES, converging, proxies
+from server.analysis.simulated import MOST, extents
+from tests.conftest import small_study
 from tests.server.analysis.made import GENERATIONS, context, crowd, made, rows, template
 
 MIND = template(1)
@@ -29,6 +32,18 @@ def test_simulated_groups_are_as_large_as_the_cell(people, simulated):
     assert row["simulated"] == own.faithful[-1].mean
     assert row["simulated with noise"] == own.noisy[-1].mean
     assert row["95th percentile"] == own.faithful[-1].most
+
+
+def test_of_searches_that_learn_it_is_said_how_many_groups_there_are_and_how_large():
+    told = context(made(MIND, 5), made(MIND, 6, emotion="sad"), searches=["one", "two"])
+    assert proxies(told).notes == converging(told).notes == (SIZES,)
+    learning = small_study(generations=10, search={"strategy": "preference", "activation": (2, 3)})
+    for configs, end in (({"one": learning}, ""), ({"one": learning, "two": learning}, " Searches that learn share")):
+        recording = replace(told.recording, configs={**told.recording.configs, **configs})
+        extent, most = extents(recording.configs)["one"]
+        _, note = proxies(replace(told, recording=recording)).notes
+        assert f"there are {extent.minds} groups of a size, of at most {most} people.{end}" in note
+        assert ("share the time" in note) == bool(end)
 
 
 def test_who_is_far_from_all_others_is_beyond_both_or_only_beyond_people_who_never_err():

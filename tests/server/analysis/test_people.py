@@ -1,5 +1,7 @@
 """What people name beside what they made, and how they search."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -95,3 +97,15 @@ def test_a_trial_whose_way_is_not_known_has_no_measures():
     assert {row["mean"] for row in rows(section)} == {None}
     assert section.methods == ("No mean of a measure of search is told: too few people.",)
     assert {row["speed"] for row in rows(section, "process-trials")} == {None}
+
+
+def test_how_people_search_and_what_they_recognise_is_of_the_faces_they_chose():
+    chosen = made(MINDS, 24, spread=0.02)
+    guesses = np.flip(chosen.weights, 1)
+    ways = tuple(np.vstack([way, guess]) for way, guess in zip(chosen.elites, guesses, strict=True))
+    one = context(chosen, judgements=judged(chosen, knows=True))
+    faces = replace(chosen, weights=guesses, elites=ways)
+    other = replace(one, recording=replace(one.recording, faces=faces, result="estimate"))
+    for section in (searching, naming):
+        assert rows(section(one)) == rows(section(other))
+    assert "last chosen as best" in naming(other).says

@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from PIL import Image
 from typer.testing import CliRunner
 
 from emogen_core.face.bundled import load_bundled_rig
+from emogen_core.face.rig_file import save_rig
 from emogen_core.landmarks.arkit import TABLE, core_weights
 from emogen_core.landmarks.points import NAMES
 from emogen_core.landmarks.solvers import METHODS
@@ -23,6 +25,7 @@ from server.cli.landmark_files import population
 from server.services.config.files import read_study
 from server.services.studies.fitting import misfits
 from server.services.trials.evolution import params_of
+from tests.rig_factory import full_rig
 
 DOC = (Path(__file__).parents[3] / "docs" / "landmarks.md").read_text()
 RIG = load_bundled_rig()
@@ -253,6 +256,23 @@ def test_places_that_cannot_be_written_are_told(write, tmp_path):
     assert "expected a file to read" in run("fit", tmp_path / "none.csv", code=1).stderr
     (tmp_path / "bytes.csv").write_bytes(b"\xff\xfe\x00")
     assert "expected text in UTF-8" in run("fit", tmp_path / "bytes.csv", code=1).stderr
+
+
+def test_another_rig_takes_coefficients_without_points(write, tmp_path):
+    """Its mesh is no face, so points are refused; its one ARKit shape takes its coefficient all the same."""
+    small = full_rig()
+    gene = replace(small.genes[0], members=("jawOpen",))
+    renamed = replace(small, genes=(gene, *small.genes[1:]), core_shapes=("jawOpen", *small.core_shapes[1:]))
+    rig = tmp_path / "lab.rig"
+    save_rig(renamed, rig)
+    phone, out = write("JawOpen,TongueOut\n0.4,1\n"), tmp_path / "face"
+    told = json.loads(run("fit", phone, "--rig", rig, "--out", out, "--json").stdout)
+    assert told["frames"][0]["genes"] == {"g0": 0.4}
+    assert told["not_on_the_rig"] == ["tongueOut"]
+    assert yaml.safe_load((out / "study.yaml").read_text())["identities"] == ["lab:female"]
+    refused = run("fit", write(block("example"), "points.csv"), "--rig", rig, "--out", tmp_path / "none", code=1)
+    assert "feature points: " in refused.stderr
+    assert not (tmp_path / "none").exists()
 
 
 @pytest.mark.gl

@@ -5,8 +5,9 @@ import json
 import pytest
 from typer.testing import CliRunner
 
+from emogen_core.search.preference import learning
 from emogen_core.simulation.evaluation.laboratory import Laboratory
-from emogen_core.simulation.evaluation.threshold import threshold
+from emogen_core.simulation.evaluation.threshold import saving, threshold
 from server.cli import app
 from server.cli import threshold as command
 from server.services.config.files import write_study
@@ -84,3 +85,17 @@ def test_every_different_search_of_the_conditions_is_told_once(file):
     assert [len(one["faithful"]["settling"]) for one in found] == [1, 4]
     said = run(file(conditions=conditions), "--searches", 100).stdout
     assert "short, also short:\n" in said and "long:\n" in said
+
+
+def test_where_trials_may_end_early_it_tells_what_that_saves(file, monkeypatch):
+    monkeypatch.setattr(learning, "CHAINS", 8)  # fewer draws only make it quicker
+    monkeypatch.setattr(learning, "FIRST", 50)
+    search = {"strategy": "preference", "activation": (2, 3), "stop_at": 0.5, "least_generations": 1}
+    study = file(generations=3, search=search)
+    (found,) = told(study)["searches"]
+    ends = [found[kind]["generations"] for kind in ("faithful", "noisy")]
+    assert 1 <= min(ends) < 3
+    said = run(study, "--searches", 100).stdout
+    assert f"end with generation {ends[0]:.1f} of at most 3 on average, which saves {saving(ends[0], 3):.0f} %" in said
+    assert f"generation {ends[1]:.1f}, {saving(ends[1], 3):.0f} %" in said
+    assert "at most" not in run(file(), "--searches", 100).stdout

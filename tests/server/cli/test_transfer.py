@@ -69,6 +69,29 @@ def test_what_expressions_show_is_learnt(tmp_path, rig, expressions):
     assert np.allclose(made.offsets[[1, 5]], rig.offsets[[1, 5]], atol=0.01)
 
 
+def test_expressions_have_to_be_the_neutrals_mesh_in_any_dialect(tmp_path, rig, expressions):
+    """The same reader as an import's: corners with normals, tabs, and refusal of other faces."""
+    target, out = write_obj(tmp_path / "head.obj", rig.neutral("female")), tmp_path / "made.rig"
+    path = expressions / "expression-2.obj"
+    whole = path.read_text()
+    path.write_text(whole.replace("v ", "v\t").replace("f 1 2 3", "vn 0 0 1\r\nf 1//1 2//1 -22//1"))
+    done = run(tmp_path / "small.rig", target, "--expressions", expressions, "--out", out)
+    assert done.exit_code == 0, done.output
+    assert np.allclose(load_rig(out).offsets[2], 1.2 * rig.offsets[2], atol=0.01)
+    out.unlink()
+    for spoilt, message in (
+        (whole.replace("f 1 2 3", "f 1 2 4"), "expression-2.obj: expected the 1 faces of head.obj, got others"),
+        (whole.replace("f 1 2 3\n", ""), "expression-2.obj: expected vertices (v) and faces (f), got 24 and 0"),
+        (whole.replace("v ", "v x", 1), "expression-2.obj: "),
+        (whole.replace("\nv ", "\nv nan ", 1), "expression-2.obj: expected finite coordinates"),
+    ):
+        path.write_text(spoilt)
+        done = run(tmp_path / "small.rig", target, "--expressions", expressions, "--out", out)
+        assert (done.exit_code, out.exists()) == (1, False)
+        assert message in done.stderr
+        assert len(done.stderr.strip().splitlines()) == 1
+
+
 def test_the_name_and_the_method_can_be_chosen(tmp_path, rig, expressions):
     out = tmp_path / "made.rig"
     given = ("--expressions", expressions, "--method", "copy", "--name", "Eva 2")
@@ -84,7 +107,7 @@ def test_the_name_and_the_method_can_be_chosen(tmp_path, rig, expressions):
         (["nobody"], "target: expected one of ['female', 'male'] or an OBJ file, got 'nobody'"),
         (["a", "b"], "arguments: expected a template and a target"),
         (["short.obj"], "target: expected shape (24, 3), got (3, 3); it has to be the template's mesh"),
-        (["nan.obj"], "target: expected finite positions"),
+        (["nan.obj"], "nan.obj: expected finite coordinates, got [nan, nan, nan] at vertex 0, and 23 more such"),
         (["male", "--method", "magic"], "method: expected one of"),
         (["male", "--expressions", "nowhere"], "expressions: expected weights.csv of emogen rig pack"),
     ],

@@ -33,12 +33,13 @@ FORBIDDEN = {
 BUTTONS = (
     "common.help", "common.stop", "common.close", "common.menu", "entry.start", "entry.continue", "consent.agree",
     "consent.decline", "instructions.practice", "instructions.begin", "evolve.set", "evolve.practice",
-    "evolve.generation", "evolve.first", "evolve.mark", "evolve.best", "evolve.undo", "evolve.again", "evolve.next",
-    "evolve.finish", "evolve.practice_next", "client.none", "client.best_chosen", "client.mark_closest",
-    "client.mark_taken_back", "client.need_one", "client.need", "client.need_best", "client.limit", "client.saved",
-    "client.saved_first", "client.kept", "client.answer_kept", "client.redraw", "client.try_now", "client.select",
-    "client.selected", "client.see_all", "client.copied", "client.copy", "again.yes", "again.no", "stop.keep",
-    "stop.erase", "stop.no", "rating.next", "debrief.copy", "debrief.return_plain", "debrief.print", "errors.reload",
+    "evolve.generation", "evolve.generation_open", "evolve.first", "evolve.mark", "evolve.best", "evolve.undo",
+    "evolve.again", "evolve.next", "evolve.finish", "evolve.practice_next", "client.none", "client.best_chosen",
+    "client.mark_closest", "client.mark_taken_back", "client.need_one", "client.need", "client.need_best",
+    "client.limit", "client.saved", "client.saved_first", "client.kept", "client.answer_kept", "client.redraw",
+    "client.try_now", "client.select", "client.selected", "client.see_all", "client.copied", "client.copy", "again.yes",
+    "again.no", "stop.keep", "stop.erase", "stop.no", "rating.next", "debrief.copy", "debrief.return_plain",
+    "debrief.print", "errors.reload",
 )  # fmt: skip
 
 

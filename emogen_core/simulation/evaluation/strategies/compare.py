@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from emogen_core.errors import InvalidInputError, expected
 from emogen_core.simulation.complexity import COMPLEXITIES, COUNT, PURPOSES
-from emogen_core.simulation.evaluation.strategies.conditions import ALGORITHMS, CONDITIONS, PAPER, specs
+from emogen_core.simulation.evaluation.strategies.conditions import ALGORITHMS, CONDITIONS, LEARNING, PAPER, specs
 from emogen_core.simulation.evaluation.strategies.course import Watching, joined
 from emogen_core.simulation.evaluation.strategies.summary import no_information, summary
 from emogen_core.simulation.evaluation.work import SERIAL, parts
@@ -35,6 +35,7 @@ class Cell:
         paper: the published search.
         learning: the one that learns from every choice.
         uninformed: the error of the face for which nobody answers.
+        whole: the one that learns where no search ends early; itself where the condition lets none.
     """
 
     name: str
@@ -42,6 +43,7 @@ class Cell:
     paper: Summary
     learning: Summary
     uninformed: float
+    whole: Summary
 
     @property
     def condition(self) -> Condition:
@@ -108,5 +110,6 @@ def compare(
 def _cell(laboratory: Laboratory, plan: Plan, courses: Mapping[str, Course], name: str, genes: int) -> Cell:
     of = {who: CONDITIONS[name].spec(genes, plan.purpose, who) for who in ALGORITHMS}
     meant = laboratory.faces(laboratory.meant(of[PAPER]))
-    paper, learning = (summary(courses[of[who].key], meant) for who in ALGORITHMS)
-    return Cell(name, genes, paper, learning, no_information(laboratory.experiment(of[PAPER])))
+    whole = CONDITIONS[name].whole.spec(genes, plan.purpose, LEARNING)
+    paper, learning, beside = (summary(courses[spec.key], meant) for spec in (of[PAPER], of[LEARNING], whole))
+    return Cell(name, genes, paper, learning, no_information(laboratory.experiment(of[PAPER])), beside)

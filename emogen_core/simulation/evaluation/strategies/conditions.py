@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Final
 
 from emogen_core.simulation.complexity import COMPLEXITIES, name_of
@@ -37,6 +37,7 @@ class Condition:
         selections: how many faces they select.
         bars: genes of a target -> most that the error may be at the last generation, as a share of the paper's search.
         informed: whether results have to lie below the face for which nobody answers.
+        stop_at: expected error with which searches that learn end early; None: they go on to the last generation.
     """
 
     title: str
@@ -45,16 +46,24 @@ class Condition:
     selections: Selections = "paper"
     bars: Mapping[int, float] = field(default_factory=_no_worse)
     informed: bool = False
+    stop_at: float | None = None
 
     def spec(self, genes: int, purpose: str, algorithm: Algorithm) -> RunSpec:
         """Return the run of a strategy for targets of some genes."""
+        stops = self.stop_at is not None and algorithm == LEARNING
         return RunSpec(
             name_of(genes, purpose),
             self.metric.format(genes),
+            {"stop_at": self.stop_at} if stops else {},
             observer=self.observer,
             selections=self.selections,
             algorithm=algorithm,
         )
+
+    @property
+    def whole(self) -> Condition:
+        """The same people where no search ends early."""
+        return replace(self, stop_at=None)
 
 
 def _bars(*bars: float) -> dict[int, float]:
@@ -75,15 +84,23 @@ CONDITIONS: dict[str, Condition] = {
     "elite-noise": Condition("only the best, noise .1", observer=_NOISY, selections="elite"),
     "noise-2": Condition("noise .2", observer=Observer(noise=0.2)),
     "rescaled": Condition("metric outside the model, noise .1", f"{RESCALED}{{}}", _NOISY),
+    "stop-05": Condition("noise .1, ends at .05", observer=_NOISY, stop_at=0.05),
+    "stop-10": Condition("noise .1, ends at .1", observer=_NOISY, stop_at=0.1),
+    "stop-15": Condition("noise .1, ends at .15", observer=_NOISY, stop_at=0.15),
+    "stop-20": Condition("noise .1, ends at .2", observer=_NOISY, stop_at=0.2),
+    "vertex-stop-10": Condition("vertex judge, noise .1, ends at .1", VERTEX, _NOISY, stop_at=0.1),
+    "vertex-stop-20": Condition("vertex judge, noise .1, ends at .2", VERTEX, _NOISY, stop_at=0.2),
 }
 """By the names that the command line knows them by."""
 
 
 def specs(conditions: Iterable[str], purpose: str) -> list[RunSpec]:
-    """Return all runs of some conditions."""
-    return [
-        CONDITIONS[name].spec(genes, purpose, algorithm)
+    """Return all different runs of some conditions; where searches end early, also of those that do not."""
+    runs = (
+        condition.spec(genes, purpose, algorithm)
         for name in conditions
         for genes in COMPLEXITIES
         for algorithm in ALGORITHMS
-    ]
+        for condition in (CONDITIONS[name], CONDITIONS[name].whole)
+    )
+    return list({run.key: run for run in runs}.values())

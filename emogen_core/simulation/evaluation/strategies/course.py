@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from emogen_core.simulation.evaluation.laboratory import Laboratory
     from emogen_core.simulation.evaluation.specs import RunSpec
     from emogen_core.simulation.learners import Learned
-    from emogen_core.simulation.runs import Experiment
+    from emogen_core.simulation.runs import Elites, Experiment
 
     Floats = NDArray[np.float64]
 
@@ -45,6 +45,8 @@ class Course:
         mean_cosine: (R, N) how far it is; both NaN without a mean face.
         intensity: (R,) length of the result as a share of that of the face in mind.
         final: (R, K) weights of the results.
+        ended: (R,) last generation that was seen. What stands at the end of a search that ended early is told again for
+            the generations after it.
     """
 
     judged: Floats
@@ -57,6 +59,7 @@ class Course:
     mean_cosine: Floats
     intensity: Floats
     final: NDArray[np.float32]
+    ended: NDArray[np.intp]
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,10 +75,10 @@ class Watching:
         meant = experiment.faces(targets)[np.arange(begun, begun + searches) % len(targets)]
         if spec.learns:
             found = self.laboratory.learned(spec, number, searches)
-            return _course(experiment, meant, found.elites.weights, found.shown, found)
+            return _course(experiment, meant, found.elites, found.shown, found)
         seen: list[Floats] = []
         elites = chunk(experiment, spec.entropy(self.laboratory.seed), number, searches, seen.append)
-        return _course(experiment, meant, elites.weights, np.stack(seen, 1)[:searches], None)
+        return _course(experiment, meant, elites, np.stack(seen, 1)[:searches], None)
 
 
 def joined(parts: Sequence[Course]) -> Course:
@@ -86,13 +89,13 @@ def joined(parts: Sequence[Course]) -> Course:
 def _course(
     experiment: Experiment,
     meant: NDArray[np.floating],
-    elites: NDArray[np.float32],
+    elites: Elites,
     shown: NDArray[np.floating],
     found: Learned | None,
 ) -> Course:
-    """Return the course of (R, N, K) best faces, (R, N, 10, G) shown ones and, of a strategy that learns, the rest."""
+    """Return the course of best faces, (R, N, 10, G) shown ones and, of a strategy that learns, the rest."""
     target = np.asarray(meant, np.float64)[:, None]
-    best = elites.astype(np.float64)
+    best = elites.weights.astype(np.float64)
     judged = experiment.metric(best, target)
     nothing = np.full_like(judged, np.nan)
     means = None if found is None else found.means.astype(np.float64)
@@ -107,7 +110,8 @@ def _course(
         nothing if found is None else found.doubt.astype(np.float64),
         nothing if means is None else cosine_distance(means, target),
         np.linalg.norm(best[:, -1], axis=-1) / np.maximum(np.linalg.norm(target[:, 0], axis=-1), _LEAST),
-        elites[:, -1],
+        elites.final,
+        elites.ended,
     )
 
 

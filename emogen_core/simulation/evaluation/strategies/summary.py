@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from emogen_core.simulation.evaluation.dispersion import units
-from emogen_core.simulation.evaluation.strategies.stopping import Stop, stops
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -40,7 +39,10 @@ class Summary:
         scatter, bias: of the last best faces.
         intensity: mean length of a result as a share of that of the target.
         alike, active, faint: (N,) means over the faces that were shown.
-        stops: what comes of trials that end early; none of a strategy that does not know how sure it is.
+        generations: mean of the last generations.
+        early: percentage of searches that ended before the last one that there could be.
+        estimated, expected: mean cosine distance of the last mean faces from what was meant, and as the strategy itself
+            expects it; NaN without any.
     """
 
     judged: Floats
@@ -53,7 +55,10 @@ class Summary:
     alike: Floats
     active: Floats
     faint: Floats
-    stops: tuple[Stop, ...] = ()
+    generations: float
+    early: float
+    estimated: float
+    expected: float
 
 
 def summary(course: Course, meant: NDArray[np.floating]) -> Summary:
@@ -63,7 +68,9 @@ def summary(course: Course, meant: NDArray[np.floating]) -> Summary:
         course.judged.mean(0), course.cosine.mean(0), course.believed.mean(0),
         float(last.std(ddof=1) / np.sqrt(len(last))),
         scatter(course.final, len(meant)), bias(course.final, meant), float(course.intensity.mean()),
-        course.alike.mean(0), course.active.mean(0), course.faint.mean(0), stops(course),
+        course.alike.mean(0), course.active.mean(0), course.faint.mean(0),
+        float(course.ended.mean()), 100 * float((course.ended < course.judged.shape[1] - 1).mean()),
+        float(course.mean_cosine[:, -1].mean()), float(course.doubt[:, -1].mean()),
     )  # fmt: skip
 
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import TYPE_CHECKING
 
+from emogen_core.search.params import SearchParams
 from emogen_core.simulation.complexity import COUNT
 from emogen_core.simulation.evaluation.strategies.conditions import ALGORITHMS, LEARNING, PAPER
 from emogen_core.simulation.evaluation.strategies.goals import goals
-from emogen_core.simulation.evaluation.strategies.stopping import EARLIEST
 from emogen_core.simulation.evaluation.table import Column, Row, Table
+from emogen_core.simulation.evaluation.threshold import saving
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -22,11 +24,16 @@ if TYPE_CHECKING:
     Curve = Callable[[Summary], NDArray[np.float64]]
 
 NONE = "no information"
+LEAST = next(one.default for one in fields(SearchParams) if one.name == "least_generations")
+"""First generation with which a trial may end."""
 
 
 def tables(cells: Sequence[Cell]) -> list[Table]:
-    """Return all tables of a comparison, the goals first."""
-    return [_goals(cells), _last(cells), _errors(cells), *_faces(cells), _stopping(cells)]
+    """Return all tables of a comparison, the goals first, and what comes of ending early in one of its own."""
+    whole = [cell for cell in cells if cell.condition.stop_at is None]
+    early = [cell for cell in cells if cell.condition.stop_at is not None]
+    made = [_goals(whole), _last(whole), _errors(whole), *_faces(whole)] if whole else []
+    return [*made, *([_stopping(early)] if early else [])]
 
 
 def _goals(cells: Sequence[Cell]) -> Table:
@@ -96,23 +103,26 @@ def _faces(cells: Sequence[Cell]) -> list[Table]:
 
 def _stopping(cells: Sequence[Cell]) -> Table:
     """Return what comes of trials that end once the strategy is sure enough."""
-    rows = tuple(
-        Row(f"{cell.label}: at {one.limit:g}", (one.pages, one.early, one.error, one.expected, one.last))
-        for cell in cells
-        for one in cell.learning.stops
-    )
     columns = (
-        Column("pages", 1, "of ten faces, on average"),
+        Column("generations", 1, "last one that was seen, on average"),
         Column("early %", 0, "trials that end before the last generation"),
-        Column("error", help="of the mean face where it ends, by cosine"),
-        Column("expected", help="by the strategy itself"),
-        Column("error at last", help="of the mean face without stopping"),
-    )
+        Column("elite", help="error of the best face, by cosine"), Column("estimate", help="of the mean face"),
+        Column("expected", help="error of the mean face as the strategy itself expects it"),
+        *(Column(f"{what} without", help="without ending early") for what in ("elite", "estimate", "expected")),
+        Column("saving %", 0, "of the choices"),
+    )  # fmt: skip
+    rows = tuple(Row(cell.label, _ending(cell)) for cell in cells)
     return Table(
         "strategy-stopping", "Trials that end early", "", columns, rows,
-        why=f"A trial ends once {LEARNING} expects its mean face to be within a limit of what is meant,"
-        f" after {EARLIEST + 1} pages at the earliest; the mean face is the result.",
+        why=f"A trial ends with the first generation, from {LEAST} on, before which {LEARNING} expects its mean face to"
+        " be within a limit of what is meant. All errors are cosine distances, whatever people judge by.",
     )  # fmt: skip
+
+
+def _ending(cell: Cell) -> tuple[float, ...]:
+    own, whole = cell.learning, cell.whole
+    errors = [float(error) for one in (own, whole) for error in (one.cosine[-1], one.estimated, one.expected)]
+    return (own.generations, own.early, *errors, saving(own.generations, whole.generations))
 
 
 def _curves(cells: Sequence[Cell], name: str, title: str, why: str, curve: Curve) -> Table:

@@ -68,7 +68,7 @@ class Comparison:
         yield from _ending(recorded, trial, shown)
 
     def _generations(self, recorded: Recorded, trial: Trial, shown: Shown) -> Iterator[Difference | None]:
-        config = recorded.config
+        config, last = recorded.config, None
         search, state = strategy(config.search.strategy), None
         for generation, faces, choice in shown:
             if state is None or generation.attempt != state.attempt:
@@ -76,8 +76,10 @@ class Comparison:
             found = self._compare(trial, config, state, (generation, faces)) or _not_offered(faces, choice)
             place = trial.participation_id, trial.id, generation.attempt, generation.number
             yield Difference(*place, *found) if found else None
+            last = self._evolution(config).last_early(trial, state)
             if choice is not None:
                 state = search.tell(params_of(self.rig, config, state), state, _told(faces, choice))
+        yield from _amiss(trial, "last_generation", _or_none(last), _or_none(trial.last_generation))
         yield from self._estimate(recorded, trial, state)
 
     def _estimate(self, recorded: Recorded, trial: Trial, state: State | None) -> Iterator[Difference]:
@@ -125,6 +127,10 @@ def _ending(recorded: Recorded, trial: Trial, shown: Shown) -> Iterator[Differen
     yield from _amiss(trial, "final_face", best, trial.final_face_id or "none")
     if recorded.complete and best == "none":
         yield from _amiss(trial, "final_face", "one, since the participation is complete", "none")
+
+
+def _or_none(number: int | None) -> str:
+    return "none" if number is None else str(number)
 
 
 def _amiss(trial: Trial, what: str, expected: str, got: str) -> Iterator[Difference]:

@@ -191,6 +191,7 @@ class ExportReplay:
                     block=row["block"], kind=row["kind"], practice=row["practice"], emotion=row["emotion"] or "",
                     identity=row["identity"] or "", seed=row["seed"], attempt=row["attempts"],
                     generation=row["generations"], final_face_id=row["final_face"],
+                    last_generation=row["generations"] if row.get("ended_early") else None,  # not in earlier exports
                 )
             )  # fmt: skip
         return found

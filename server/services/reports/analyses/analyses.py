@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from ....store import analyses as rows
 from ....store import revisions, studies
 from ....store.analyses_tables import Analysis
+from ....store.results import has_estimates
 from ...background import watched
 from ...clock import local, new_id, now
 from ...config.stored import parsed
@@ -47,6 +48,9 @@ KINDS = {
     "all": (Filters(), ("--pilot", "--simulated")),
 }
 """For everybody who can be counted: what is exported, and what the command is told."""
+USUAL = "elite"
+RESULTS = {USUAL: "the faces chosen as best", "estimate": "the search’s own estimates"}
+"""Which face of every trial can be analysed, in words."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,8 +62,9 @@ class Standing:
         running: whether it is being made.
         problem: why it was not made.
         who: who counts in it.
+        result: which face of every trial it is of.
         made_at: when the one that is there was begun.
-        counted: who counts in that, in words.
+        counted: who counts in that, and of which faces it is where that is not the usual one, in words.
         changed: whether data came or went since.
     """
 
@@ -67,6 +72,7 @@ class Standing:
     running: bool
     problem: str | None
     who: str
+    result: str
     made_at: datetime | None
     counted: str | None
     changed: bool
@@ -85,24 +91,33 @@ class Analyses:
     """Held from the moment a report is asked for until it is there: nothing queues, so that leases need not allow for
     it."""
 
-    def begin(self, study_id: str, who: str, user: str | None) -> None:
+    def begin(self, study_id: str, who: str, user: str | None, result: str = USUAL) -> None:
         """Ask for a report; return at once.
+
+        Args:
+            study_id: of which study.
+            who: who counts.
+            user: who asks.
+            result: which face of every trial is analysed.
 
         Raises:
             NotFoundError: no such study.
-            InvalidError: nobody of this kind can be counted.
+            InvalidError: nobody of this kind can be counted, or no such face analysed.
             ConflictError: one is being made.
         """
         if who not in KINDS:
             raise InvalidError("There is no such filter.", field="who", expected=f"one of {', '.join(KINDS)}", got=who)
+        if result not in RESULTS:
+            expected = f"one of {', '.join(RESULTS)}"
+            raise InvalidError("There is no such result.", field="result", expected=expected, got=result)
         if not self._busy.acquire(blocking=False):
             raise ConflictError(
                 "A report is being made already: of this or another study, or one to be dropped, since somebody was "
                 "erased meanwhile. Ask again in a minute."
             )
         try:
-            analysis = self._asked(study_id, who, user)
-            watched(self._behind.submit(self._work, analysis, study_id, who), "a report could not be made")
+            analysis = self._asked(study_id, who, result, user)
+            watched(self._behind.submit(self._work, analysis, study_id, who, result), "a report could not be made")
         except BaseException:
             self._busy.release()
             raise
@@ -117,9 +132,15 @@ class Analyses:
             lost = "It was interrupted." if last.ended_at is None and not running else None
             return Standing(
                 begun_at=local(last.begun_at), running=running, problem=last.problem or lost, who=last.who,
-                made_at=local(there.begun_at) if there else None, counted=there.counted if there else None,
+                result=last.result, made_at=local(there.begun_at) if there else None,
+                counted=_told(there) if there else None,
                 changed=there is not None and there.revision != revisions.revision(tx, study_id),
             )  # fmt: skip
+
+    def results(self, study_id: str) -> dict[str, str]:
+        """Return which faces of a trial can be analysed, with words for them; the first is the usual one."""
+        with self.database.read() as tx:
+            return RESULTS if has_estimates(tx, study_id) else {USUAL: RESULTS[USUAL]}
 
     def page(self, study_id: str) -> bytes:
         """Return the page of the report.
@@ -159,7 +180,7 @@ class Analyses:
         model = self.models.of(next(iter(parsed(version).heads))) if version else None
         return ["--rig", str(model.files[0])] if model else []
 
-    def _asked(self, study_id: str, who: str, user: str | None) -> str:
+    def _asked(self, study_id: str, who: str, result: str, user: str | None) -> str:
         """Write down that a report is being made; return its id."""
         with self.database.write() as tx:
             if studies.study(tx, study_id, lock=True) is None:
@@ -169,21 +190,22 @@ class Analyses:
                 raise ConflictError("The report of this study is being made already. Wait until it is there.")
             rows.forget_others(tx, study_id, {there.id} if there else set())
             row = Analysis(
-                id=new_id(), study_id=study_id, who=who, revision=revisions.revision(tx, study_id), begun_at=now()
-            )
+                id=new_id(), study_id=study_id, who=who, result=result, revision=revisions.revision(tx, study_id),
+                begun_at=now(),
+            )  # fmt: skip
             rows.add(tx, row)
-            audit(tx, user, "make report", study_id, who=who)
+            audit(tx, user, "make report", study_id, who=who, result=result)
             return row.id
 
-    def _work(self, analysis_id: str, study_id: str, who: str) -> None:
+    def _work(self, analysis_id: str, study_id: str, who: str, result: str) -> None:
         try:
-            self._attempt(analysis_id, study_id, who)
+            self._attempt(analysis_id, study_id, who, result)
         finally:
             self._busy.release()
 
-    def _attempt(self, analysis_id: str, study_id: str, who: str) -> None:
+    def _attempt(self, analysis_id: str, study_id: str, who: str, result: str) -> None:
         try:
-            archive, counted = self._made(study_id, who)
+            archive, counted = self._made(study_id, who, result)
         except ServiceError as error:
             self._end(analysis_id, problem=error.message)
         except BaseException:
@@ -192,13 +214,14 @@ class Analyses:
         else:
             self._end(analysis_id, archive=archive, counted=counted)
 
-    def _made(self, study_id: str, who: str) -> tuple[bytes, str]:
+    def _made(self, study_id: str, who: str, result: str) -> tuple[bytes, str]:
         """Return the files of a report as a zip, and who was counted."""
-        filters, options = KINDS[who]
+        filters, kinds = KINDS[who]
+        options = [*kinds, *(("--result", result) if result != USUAL else ()), *self._rig(study_id)]
         with TemporaryDirectory(prefix="emogen-analysis-") as folder:
             export, out = Path(folder, f"{study_id}.zip"), Path(folder, "report")
             write_zip(self.exports.package(study_id, "parquet", filters).entries(), export)
-            self.make(export, out, [*options, *self._rig(study_id)])
+            self.make(export, out, options)
             counted = json.loads((out / ABOUT).read_text(encoding="utf-8"))["counted"]
             return _zipped(out), str(counted)
 
@@ -213,6 +236,11 @@ class Analyses:
             row.ended_at, row.archive, row.counted, row.problem = now(), archive, counted, problem
             if archive is not None:
                 rows.forget_others(tx, row.study_id, {row.id})
+
+
+def _told(row: Analysis) -> str | None:
+    """Return who counts in a report, and of which faces it is where that is not the usual one."""
+    return row.counted if row.result == USUAL else f"{row.counted}, {RESULTS[row.result]}"
 
 
 def _running(row: Analysis) -> bool:

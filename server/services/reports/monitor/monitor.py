@@ -272,10 +272,10 @@ def _listed(runs: Sequence[Run], view: View, moment: datetime) -> list[Run]:
 
 def _people(seen: _Seen, view: View, stations: Stations, moment: datetime) -> tuple[Person, ...]:
     last = {choice.participation: choice for choice in seen.choices}
-    at = {one.participation: one.generation for one in seen.trials}
+    at = {one.participation: one for one in seen.trials}
     sets = sets_of(seen.config)
     return tuple(
-        _person(run, last.get(run.id), at.get(run.id, 0), _Course(seen.config, stations, sets, moment))
+        _person(run, last.get(run.id), at.get(run.id), _Course(seen.config, stations, sets, moment))
         for run in _listed(seen.runs, view, moment)
     )
 
@@ -288,11 +288,13 @@ class _Course:
     moment: datetime
 
 
-def _person(run: Run, last: Timed | None, generation: int, course: _Course) -> Person:
+def _person(run: Run, last: Timed | None, at: At | None, course: _Course) -> Person:
+    generation, ends = (at.generation, at.last_generation) if at else (0, None)
     practised = course.config.practice is not None
     begun = run.step not in {"consent", "instructions", "practice"}
     whole = max(run.position - practised, 0) if begun else 0
-    part = (generation + (run.step == "rating")) / (course.config.generations + 1) if begun else 0
+    pages = (course.config.generations if ends is None else ends) + 1
+    part = (generation + (run.step == "rating")) / pages if begun else 0
     return Person(
         number=run.number,
         name=name_of(run.number),

@@ -41,7 +41,7 @@ SEED = 1
 """As of the command that the page names, so that it prints the same numbers."""
 PAUSE = 0.001
 """Seconds after every generation in which those who answer participants go first."""
-VERSION = 4
+VERSION = 5
 """Counted up when the same settings come to give other numbers."""
 
 
@@ -176,7 +176,7 @@ def _noise(told: dict[str, Any]) -> Noise:
     error, apart, proxy = (Spread(**told[name]) for name in ("error", "apart", "proxy"))
     within, among = (Dispersion(**told[name]) for name in ("within", "among"))
     settling = tuple(Spread(**one) for one in told["settling"])
-    return Noise(error, apart, proxy, settling, told["right"], within, among, told["kept"])
+    return Noise(error, apart, proxy, settling, told["right"], within, among, told["kept"], told["generations"])
 
 
 def _learns(config: StudyConfig) -> bool:

@@ -17,6 +17,7 @@ class Column:
 
     `allowed` lists the values that can stand there, where that is a list; a part in capitals stands for a name.
     `least` and `most` are the limits of a number. `single` says that a number has the precision of 32 bits.
+    `later` marks one that exports of earlier releases lack.
     """
 
     name: str
@@ -28,6 +29,7 @@ class Column:
     most: float | None = None
     family: Literal["genes", "weights"] | None = None
     single: bool = False
+    later: bool = False
 
     @property
     def shown(self) -> str:
@@ -72,9 +74,9 @@ def number(name: str, help_: str, unit: str = "", *, least: float | None = 0) ->
     return Column(name, "number", help_, unit, least=least)
 
 
-def truth(name: str, help_: str) -> Column:
+def truth(name: str, help_: str, *, later: bool = False) -> Column:
     """Return a column of true and false."""
-    return Column(name, "boolean", help_, allowed=TRUTH)
+    return Column(name, "boolean", help_, allowed=TRUTH, later=later)
 
 
 def time(name: str, help_: str) -> Column:

@@ -94,6 +94,11 @@ _ALL = (
             text("seed", "Entropy of all random draws of this trial, decimal."),
             integer("attempts", "How often it was started again."),
             integer("generations", "The generation that was reached; in a trial without generations, how many items."),
+            truth(
+                "ended_early",
+                "Whether that is the last one since the search was sure enough before the study's most generations.",
+                later=True,
+            ),
             text("final_face", "The face that ended the trial."),
             time("started_at", "When its first faces were made."),
             time("ended_at", "When its last best face was chosen."),

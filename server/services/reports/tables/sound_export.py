@@ -63,7 +63,7 @@ class SoundExport(Export):
 
 
 def _complete(name: str, table: pa.Table) -> None:
-    missing = [column.name for column in TABLES[name].columns if not column.family]
+    missing = [column.name for column in TABLES[name].columns if not (column.family or column.later)]
     missing = [column for column in missing if column not in table.column_names]
     if missing:
         raise InvalidError(f"{name}: expected a column called {missing[0]}, got none.", field=name)

@@ -150,8 +150,9 @@ def _limits(field: Schema) -> str:
     low, high = field.get("minimum"), field.get("maximum")
     noun = {"integer": "Whole number", "number": "Number"}.get(field.get("type", ""))
     if noun:
-        parts = [noun, "" if low is None else f"from {low:,}", "" if high is None else f"to {high:,}"]
-        return " ".join(filter(None, parts)) if low is not None or high is not None else ""
+        words = (("from", low), ("above", field.get("exclusiveMinimum")), ("to", high))
+        told = [f"{word} {limit:,}" for word, limit in words if limit is not None]
+        return " ".join([noun, *told]) if told else ""
     return f"At most {field['maxItems']}" if "maxItems" in field and "prefixItems" not in field else ""
 
 

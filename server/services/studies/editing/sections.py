@@ -34,7 +34,10 @@ SECTIONS = (
     ),
     Section(
         "start", "Starting faces", "The first ten faces, and how the next ten are made from a choice.",
-        ("search.initialisation", "search.activation", "search.reset", "search.gaze", "search.lids", "search.lateral"),
+        (
+            "search.strategy", "search.stop_at", "search.least_generations", "search.initialisation",
+            "search.activation", "search.reset", "search.gaze", "search.lids", "search.lateral",
+        ),
         ("search",),
     ),
     Section(

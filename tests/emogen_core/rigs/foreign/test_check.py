@@ -84,6 +84,17 @@ def test_movements_longer_than_the_head(field):
     check_model(replace(head, **{field: {**head.expressions, "mine": far / 1.02}}), Findings())
 
 
+def test_most_of_a_head_stays_where_it_is():
+    """Other units, places or orders of one file leave no vertex far away, and hardly one where it was."""
+    order = np.random.default_rng(1).permutation(len(head.vertices))
+    for field in ("expressions", "identity_modes"):
+        for moved in (0.1 * head.vertices, head.vertices[order], head.vertices + np.float32(16)):
+            told = refusal(replace(head, **{field: {**head.expressions, "mine": moved - head.vertices}}))
+            assert told.startswith("mine: expected most vertices within 25 of where the neutral has them, got ")
+        near = np.full_like(head.vertices, 14)
+        check_model(replace(head, **{field: {**head.expressions, "mine": near}}), Findings())
+
+
 def test_edges_of_three_triangles():
     def change(rows):
         rows[1] = rows[0][[0, 1, 2]]
@@ -118,7 +129,17 @@ def test_a_part_inside_out(part):
     assert told.startswith(f"part {part}: expected its front outside")
 
 
-def test_open_skin_is_judged_and_other_open_parts_are_not():
+@pytest.mark.parametrize("part", ["EyeLeft", "TeethLower"])
+def test_open_eyes_and_teeth_are_judged(part):
+    last = head.parts[part][1]
+    opened = with_triangles(part, lambda rows: rows[:, ::-1]).triangles
+    opened = np.concatenate([opened[: last - 3], opened[last:]])
+    parts = {name: (a - 3 * (a >= last), b - 3 * (b >= last)) for name, (a, b) in head.parts.items()}
+    told = refusal(replace(head, triangles=opened, parts=parts))
+    assert told.startswith(f"part {part}: expected its front outside")
+
+
+def test_open_skin_is_judged_and_the_lining_of_a_mouth_is_not():
     first, last = head.parts["Face"]
     opened = head.triangles.copy()
     opened[first:last] = opened[first:last, ::-1]
@@ -145,6 +166,23 @@ def test_a_mirror_image_is_inside_out_until_its_triangles_turn():
     flipped = replace(head, vertices=head.vertices * np.float32([-1, 1, 1]))
     assert refusal(flipped).startswith("part Face: expected its front outside")
     check_model(replace(flipped, triangles=head.triangles[:, ::-1]), Findings())
+
+
+def test_what_is_too_small_for_a_head():
+    few = replace(head, vertices=head.vertices[:3], triangles=np.array([[0, 1, 2]], np.int32), parts={"a": (0, 1)})
+    assert refusal(few) == "made: expected a head of at least 100 vertices, got 3; is it the right file?"
+
+
+def test_a_movement_twice_under_two_names():
+    names = {**head.expressions, "eyeBlinkLeft": head.expressions["eyeBlink_L"]}
+    told = refusal(replace(head, expressions=names))
+    assert told == "names: expected every movement once, got eyeBlink_L and eyeBlinkLeft; leave out one"
+
+
+def test_expressions_that_are_all_the_neutral():
+    still = {name: 0 * offsets for name, offsets in head.expressions.items()}
+    told = refusal(replace(head, expressions=still))
+    assert told.startswith("made: expected expressions that move the neutral's vertices, got none that does;")
 
 
 def test_what_moves_nothing_is_said():

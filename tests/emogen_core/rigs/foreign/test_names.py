@@ -2,6 +2,7 @@
 
 import pytest
 
+from emogen_core.landmarks.arkit import TABLE
 from emogen_core.rigs.foreign.names import ONE_SIDED, WHOLE, Meaning, meaning
 
 
@@ -35,5 +36,14 @@ def test_others_keep_their_names(name, stem, side):
     assert meaning(name) == Meaning(stem, side, known=False)
 
 
-def test_the_bundled_lids_are_known():
-    assert meaning("lidsClose.L").standard == "eyeBlink_L"
+def test_the_bundled_rigs_names_are_read_as_arkits():
+    expected = {"lidsClose.L": "eyeBlink_L", "lidsClose_R": "eyeBlink_R", "gazeLeft.R": "eyeLookIn_R",
+                "gazeRight.R": "eyeLookOut_R", "gazeUp.L": "eyeLookUp_L", "jawThrust": "jawForward",
+                "Head.lipRollUpper": "mouthRollUpper", "cheekRaise.L": "cheekSquint_L"}  # fmt: skip
+    assert {name: meaning(name).standard for name in expected} == expected
+    assert all(meaning(name).known for name in expected)
+
+
+def test_every_bundled_shape_that_arkit_has_alone_is_known():
+    shapes = {listed[0]: name for name, listed in TABLE.items() if len(listed) == 1}
+    assert {shape: meaning(shape) for shape in shapes} == {shape: meaning(name) for shape, name in shapes.items()}

@@ -76,15 +76,28 @@ def test_the_same_text_of_faces_is_not_parsed_again(ending):
 
 @pytest.mark.parametrize(
     "data",
-    [V + FACES.replace(b"f 1 2 5", b"f 1 5 2"), V + b"v 7 7 7\n" + FACES, b"f 1 2 3\n" + V + FACES,
-     V[8:] + FACES + V[:8],
+    [V.replace(b".5", b".25") + FACES + b"# end\n", b"f 4 3 2 1\n" + V + FACES[10:], V[8:] + FACES + V[:8],
      V.replace(b"v ", b"v\t") + FACES, V.replace(b"v 0 1", b"v 0 \\\n1") + FACES],
 )  # fmt: skip
 def test_another_text_is_parsed(data):
     first = parse_obj(V + FACES, "x")
     mesh = parse_obj(data, "y", like=first)
     assert mesh.polygons is not first.polygons
-    assert len(mesh.vertices) == data.count(b"v ") + data.count(b"v\t")
+    assert np.array_equal(mesh.polygons.corners, first.polygons.corners)
+    assert len(mesh.vertices) == 5
+
+
+@pytest.mark.parametrize(
+    ("data", "told"),
+    [(V[8:] + FACES, "y: expected 5 vertices as in x, got 4"), (V + b"v 7 7 7\n" + FACES, "5 vertices as in x, got 6"),
+     (V + FACES.replace(b"f 1 2 5", b"f 1 5 2"), "y: expected the 3 faces of x, got others"),
+     (b"f 1 2 3\n" + V + FACES, "y: expected the 3 faces of x, got 4")],
+)  # fmt: skip
+def test_another_mesh_is_told_by_both_names_and_counts(data, told):
+    # Four vertices that faces call five: not that an index is out of range.
+    with pytest.raises(InvalidInputError) as refused:
+        parse_obj(data, "y", like=parse_obj(V + FACES, "x"))
+    assert told in str(refused.value)
 
 
 def test_faces_between_vertices_are_always_parsed():

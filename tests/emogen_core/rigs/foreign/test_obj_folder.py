@@ -74,11 +74,19 @@ def test_what_six_digits_round_is_no_movement(folder):
 
 def test_the_neutral_may_be_said(folder):
     (folder / "neutral.obj").rename(folder / "calm.obj")
-    with pytest.raises(InvalidInputError, match="say which one with --neutral"):
+    with pytest.raises(InvalidInputError, match="rename it, or say which one with --neutral"):
         read(folder)
     assert set(read(folder, neutral="calm.obj").expressions) == set(read(folder, neutral="calm").expressions)
     with pytest.raises(InvalidInputError, match="got 'angry'"):
         read(folder, neutral="angry")
+
+
+def test_a_missing_neutral_is_told_with_what_is_there(folder):
+    (folder / "neutral.obj").unlink()
+    with pytest.raises(
+        InvalidInputError, match=r"got none among .*jawOpen.*; rename it, or say which one with --neutral NAME"
+    ):
+        read(folder)
 
 
 def test_two_neutrals_are_refused(folder):

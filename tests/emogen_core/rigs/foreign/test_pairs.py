@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.rigs.foreign.mirror import FLIP, centre_of, mirrored
 from emogen_core.rigs.foreign.model import Findings
 from emogen_core.rigs.foreign.names import ONE_SIDED, WHOLE
@@ -125,3 +126,13 @@ def test_the_centre_of_a_movement_is_weighted_by_it():
     points, offsets = np.array([[0, 0, 0], [4, 0, 0]], np.float32), np.array([[0, 1, 0], [0, 0, 3]], np.float32)
     assert centre_of(points, offsets).tolist() == [3, 0, 0]
     assert np.isnan(centre_of(points, 0 * offsets)).all()
+
+
+def test_the_bundled_rigs_names_lack_nothing_but_what_it_lacks():
+    rig = load_bundled_rig()
+    own = dict(zip(rig.core_shapes, rig.offsets, strict=False))
+    findings = Findings()
+    pairs = find_pairs(replace(head, vertices=rig.neutral(rig.identities[0]), expressions=own), findings)
+    assert findings.missing == ["1 of ARKit's movements: mouthClose."]
+    assert pairs.gaze["left"] == ("gazeLeft.L", "gazeLeft.R")
+    assert not any("gaze" in sentence for sentence in findings.guessed)

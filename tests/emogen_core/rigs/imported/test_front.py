@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from emogen_core.rigs.imported.front import Front
 from tests.emogen_core.rigs.imported.test_overlay import JAW, head, rig
 
 DOWNWARDS = (
@@ -31,6 +32,21 @@ def test_both_halves_are_mirror_images(who):
     at = head(who).landmarks()
     for name in [name for name in at if name.startswith("left ")]:
         assert at[name] == pytest.approx(at[name.replace("left", "right")] * (-1, 1, 1), abs=1.5), name
+
+
+@pytest.mark.parametrize("who", rig.identities)
+def test_under_the_chin_is_no_neck(who):
+    at = head(who).landmarks()
+    assert at["chin"][2] - at["under chin"][2] < 14
+
+
+def test_the_back_of_an_open_mouth_is_no_line_of_the_lips(monkeypatch):
+    male = head("male")
+    line, places = male.mouth_line(), male.landmarks()
+    middle = len(line) // 2
+    line[middle - 1 : middle + 1] -= (0, 0, 95)
+    monkeypatch.setattr(Front, "mouth_line", lambda _: line)
+    assert set(places) - set(male.landmarks()) == {"mouth 0.500"}
 
 
 def test_lips_meet_along_the_line_of_the_mouth():

@@ -80,6 +80,13 @@ def test_nothing_that_moves_is_refused():
         made(mouthSmile=0 * SMILE)
 
 
+def test_a_mouth_close_that_nothing_brings_is_told():
+    told = "mouthClose is not used: there is no mouthPress, which closes an open jaw with it."
+    assert told in made()[1].missing
+    pressing = {f"mouthPress_{side}": model.expressions[f"mouthSmile_{side}"] for side in "LR"}
+    assert told not in made(**model.expressions, **pressing)[1].missing
+
+
 ALL = tuple(recipe.gene for recipe in RECIPES)
 
 

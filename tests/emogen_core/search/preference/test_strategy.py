@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+import tracemalloc
 from dataclasses import replace
 
 import numpy as np
@@ -13,7 +14,14 @@ from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
 from emogen_core.errors import InvalidInputError
+from emogen_core.face.bundled import load_bundled_rig
 from emogen_core.search import Choice, Population, SearchParams, State, emogen, preference
+from emogen_core.search.params import search_params
+from emogen_core.search.preference import learning, strategy
+from emogen_core.search.preference.ending import doubt
+from emogen_core.search.preference.proposals import GRID, VISIBLE
+from emogen_core.search.preference.sample import from_rows
+from emogen_core.search.preference.utility import space_of
 from emogen_core.similarity.cosine import cosine_distance
 from tests.emogen_core.search.space import GENES, choices, space
 
@@ -50,9 +58,14 @@ def test_ten_faces_within_range_of_which_the_first_is_the_elite(seed: int, histo
     after = preference.ask(params, state)
     assert after.genes.shape == (10, GENES)
     assert len(after.origins) == len(after.parents) == 10
-    assert np.array_equal(after.genes[0], shown[-1].genes[history[-1].elite - 1])
-    assert after.parents[0] == (history[-1].elite,)
-    assert after.origins[0] == "elite"
+    elite = shown[-1].genes[history[-1].elite - 1]
+    if elite.max() >= VISIBLE:
+        assert np.array_equal(after.genes[0], elite)
+        assert after.parents[0] == (history[-1].elite,)
+        assert after.origins[0] == "elite"
+    else:
+        assert "elite" not in after.origins
+    assert after.genes.max(axis=1).min() >= VISIBLE
     assert ((after.genes >= 0) & (after.genes < 1)).all()
     assert (after.genes[:, 18:] == 0).all()
     assert preference.ask_ahead(params, state) == {}
@@ -137,6 +150,44 @@ def test_a_search_over_one_gene_still_shows_ten_faces() -> None:
     assert np.array_equal(faces[:, 3], faces.sum(axis=1))
 
 
+def test_without_a_limit_the_last_generation_is_the_study_s_most() -> None:
+    params = space(generations=3)
+    state = preference.init(params, 1)
+    for generation in range(4):
+        assert preference.last(params, state) == emogen.last(params, state) == (generation == 3)
+        state = preference.tell(params, state, Choice((2, 5), 5))
+
+
+def test_a_trial_ends_with_the_first_generation_before_which_it_is_sure() -> None:
+    history = [Choice((1, 2), 1), Choice((1, 4), 1), Choice((1, 3), 1), Choice((1,), 1)]
+    params = space(generations=9)
+    states = [play(params, 5, history[:count])[1] for count in range(len(history) + 1)]
+    doubts = [doubt(space_of(params), from_rows(state.sample)) for state in states[1:]]
+    assert all(one * GRID == round(one * GRID) for one in doubts)
+    limit = doubts[2]
+    assert limit < min(doubts[:2])
+    for least in (1, 2, 3, 4):
+        limited = space(generations=9, stop_at=limit, least_generations=least)
+        assert [preference.last(limited, state) for state in states[:4]] == [False, False, False, least <= 3]
+    assert not preference.last(space(generations=9, stop_at=limit - 1 / GRID, least_generations=1), states[3])
+    assert preference.last(space(generations=3, stop_at=limit / 2), states[3]), "the most, however sure"
+
+
+def test_until_it_is_sure_its_faces_are_those_without_a_limit() -> None:
+    history = [Choice((1, 2), 1), Choice((1, 4), 1), Choice((1, 3), 1)]
+    free, limited = space(generations=9), space(generations=9, stop_at=0.5, least_generations=3)
+    for count in range(3):
+        state = play(free, 5, history[:count])[1]
+        assert play(limited, 5, history[:count])[1] == state
+        assert preference.ask(limited, state).genes.tobytes() == preference.ask(free, state).genes.tobytes()
+    state = play(free, 5, history)[1]
+    assert preference.last(limited, state), "sure enough, or the rest shows nothing"
+    ended, other = preference.ask(limited, state), preference.ask(free, state)
+    assert ended.origins[2:] == ("draws-mean",) * 8 != other.origins[2:]
+    assert preference.ask(space(generations=3), state).origins == ended.origins
+    assert np.array_equal(preference.estimate(limited, state), preference.estimate(free, state))
+
+
 def test_there_is_no_mean_face_before_an_answer() -> None:
     with pytest.raises(InvalidInputError, match="answer"):
         preference.mean_face(space(), preference.init(space(), 1))
@@ -159,3 +210,37 @@ KNOWN = [
     8001422.0,
     131338422.0,
 ]
+
+
+def test_what_is_remembered_of_a_search_takes_less_than_a_megabyte() -> None:
+    params = search_params(load_bundled_rig(), generations=30)
+    _, state = play(params, 1, [Choice((1, 2, 3), 2)] * 29)
+    stored = json.dumps(state.to_json())
+    kept = (strategy._told, strategy._shown)
+    for one in kept:
+        one.cache_clear()
+    tracemalloc.start()
+    try:
+        preference.ask(params, preference.tell(params, State.from_json(json.loads(stored)), Choice((1, 2, 3), 2)))
+        held = tracemalloc.get_traced_memory()[0]
+        for one in kept:
+            assert one.cache_info().currsize > 0
+            one.cache_clear()
+        assert held - tracemalloc.get_traced_memory()[0] < 1e6
+    finally:
+        tracemalloc.stop()
+
+
+def test_what_as_many_answers_led_to_as_are_remembered_is_found_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(learning, "CHAINS", 4)  # fewer draws only make it quicker
+    monkeypatch.setattr(learning, "FIRST", 50)
+    params, choice, misses = space(), Choice((1, 2), 1), []
+    states = [play(params, seed, [choice])[1] for seed in range(strategy.REMEMBERED)]
+    kept = (strategy._told, strategy._shown)
+    for one in kept:
+        one.cache_clear()  # as after faces that others were shown
+    for _ in range(2):
+        for state in states:
+            preference.ask(params, preference.tell(params, state, choice))
+        misses.append([one.cache_info().misses for one in kept])
+    assert misses == 2 * [[strategy.REMEMBERED, 2 * strategy.REMEMBERED]]

@@ -10,11 +10,10 @@ from emogen_core.simulation import learners
 from emogen_core.simulation.evaluation.specs import RunSpec
 from emogen_core.simulation.evaluation.targets import PEOPLE
 from emogen_core.simulation.evaluation.threshold import (
-    FAITHFUL,
     LEARNING_SEARCHES,
     NOISY,
     SEARCHES,
-    convergence,
+    saving,
     threshold,
     usual_searches,
 )
@@ -81,20 +80,6 @@ def test_fewer_than_two_searches_a_person_are_refused():
         threshold(small_laboratory(), 99)
 
 
-def test_a_group_is_held_against_one_of_its_size():
-    laboratory = small_laboratory()
-    ten = convergence(laboratory, 10)
-    found = threshold(laboratory, 500)
-    assert len(ten) == laboratory.params.generations + 1
-    assert ten[-1] == found.faithful.proxy
-    assert convergence(laboratory, 10, NOISY)[-1] == found.noisy.proxy
-    assert ten[0].mean > ten[-1].mean
-    sizes = [convergence(laboratory, size, FAITHFUL)[-1].mean for size in (3, 6, 12, 24)]
-    assert sizes == sorted(sizes, reverse=True)
-    with pytest.raises(InvalidInputError, match="size: expected at least 2"):
-        convergence(laboratory, 1)
-
-
 def test_a_study_whose_strategy_learns_is_told_the_noise_of_that(monkeypatch):
     monkeypatch.setattr(learning, "CHAINS", 4)  # fewer draws only make it quicker
     monkeypatch.setattr(learning, "FIRST", 50)
@@ -108,3 +93,27 @@ def test_a_study_whose_strategy_learns_is_told_the_noise_of_that(monkeypatch):
     assert found.faithful.error.mean == pytest.approx(cosine_distance(elites.final, np.tile(minds, (2, 1))).mean())
     assert found.faithful != threshold(small_laboratory(generations=1), 100).faithful
     assert (usual_searches("preference"), usual_searches("emogen")) == (LEARNING_SEARCHES, SEARCHES)
+
+
+def test_of_searches_that_end_early_it_tells_when_and_counts_only_what_was_seen(monkeypatch):
+    monkeypatch.setattr(learning, "CHAINS", 8)  # fewer draws only make it quicker
+    monkeypatch.setattr(learning, "FIRST", 50)
+    laboratory = small_laboratory(generations=4, stop_at=0.3, least_generations=1)
+    laboratory.algorithm = "preference"
+    found = threshold(laboratory, 2 * PEOPLE)
+    elites = make(laboratory, [RunSpec("people", observer=NOISY, algorithm="preference")], 2 * PEOPLE)
+    (elites,) = elites.values()
+    assert set(elites.ended.tolist()) > {1}, "some end early, and not all at once"
+    assert found.noisy.generations == elites.ended.mean() < 4
+    counts = [int((elites.ended > at).sum()) for at in range(4)]
+    assert [one.count for one in found.noisy.settling] == [one for one in counts if one]
+    assert found.noisy.right == elites.accuracy
+    laboratory.result = "estimate"
+    own = threshold(laboratory, 2 * PEOPLE).noisy
+    assert [one.count for one in own.settling] == [2 * PEOPLE, *[one for one in counts if one]]
+    assert own.generations == found.noisy.generations
+
+
+def test_what_is_saved_counts_the_first_faces_too():
+    assert saving(10, 10) == 0
+    assert saving(4.5, 10) == 50

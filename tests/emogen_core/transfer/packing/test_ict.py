@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from emogen_core.rigs.target_head import read_positions
+from emogen_core.rigs.target_head import read_mesh
 from emogen_core.transfer.packing.pack import Options, pack
 from emogen_core.transfer.packing.template import Template
 
@@ -22,8 +22,8 @@ def template():
     folder = Path(ROOT) / "FaceXModel" if (Path(ROOT) / "FaceXModel").is_dir() else Path(ROOT)
     known = json.loads((folder / "vertex_indices.json").read_text())["expressions"]
     names = tuple(name for name in known if (folder / f"{name}.obj").is_file())
-    neutral = 10 * read_positions(folder / "generic_neutral_mesh.obj")[:FACE]
-    offsets = np.array([10 * read_positions(folder / f"{name}.obj")[:FACE] - neutral for name in names])
+    neutral = 10 * read_mesh(folder / "generic_neutral_mesh.obj").vertices[:FACE]
+    offsets = np.array([10 * read_mesh(folder / f"{name}.obj").vertices[:FACE] - neutral for name in names])
     near = np.arange(FACE - 2)[:, None] + [0, 1, 2]
     gaze = tuple(k for k, name in enumerate(names) if "Look" in name)
     return Template(names, neutral, offsets, near, gaze=gaze)

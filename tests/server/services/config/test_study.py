@@ -81,6 +81,37 @@ def test_what_would_have_no_effect_on_a_strategy_is_refused(name, value):
     assert problems_of({**PLAIN, "search": {**search, "strategy": "emogen"}}) == ()
 
 
+@pytest.mark.parametrize(("name", "value"), [("stop_at", 0.1), ("least_generations", 4)])
+def test_a_strategy_that_does_not_know_how_sure_it_is_cannot_end_early(name, value):
+    (problem,) = problems_of({**PLAIN, "search": {name: value}})
+    assert (problem.field, problem.got) == (f"search.{name}", str(value))
+    assert problem.expected.endswith("since it has no effect on the strategy emogen")
+    assert problems_of({**PLAIN, "generations": 4, "search": {"strategy": "preference", name: value}}) == ()
+
+
+@pytest.mark.parametrize("value", [0, 0.51, -0.1])
+def test_an_expected_error_is_a_cosine_distance(value):
+    (problem,) = problems_of({**PLAIN, "search": {"strategy": "preference", "stop_at": value}})
+    assert problem.field == "search.stop_at"
+
+
+def test_a_trial_that_may_end_early_ends_within_its_generations():
+    search = {"strategy": "preference", "stop_at": 0.1, "least_generations": 6}
+    (problem,) = problems_of({**PLAIN, "generations": 5, "search": search})
+    assert (problem.field, problem.expected) == (
+        "search.least_generations",
+        "expected at most the generations per face, 5",
+    )
+    assert problems_of({**PLAIN, "generations": 6, "search": search}) == ()
+    assert problems_of({**PLAIN, "generations": 5, "search": {**search, "stop_at": None}}) == ()
+
+
+def test_a_study_without_the_option_keeps_its_hash():
+    plain = parse_config({**PLAIN, "generations": 4, "search": {"strategy": "preference"}})
+    assert not {"stop_at", "least_generations"} & set(plain.canonical()["search"])
+    assert plain.hash() != plain.model_copy(update={"search": plain.search.model_copy(update={"stop_at": 0.1})}).hash()
+
+
 def test_conditions_may_search_in_different_ways():
     changes = {"search": {"strategy": "preference", "random_genes": 6}}
     study = parse_config({**PLAIN, "conditions": [{"name": "A", "changes": {}}, {"name": "B", "changes": changes}]})

@@ -12,6 +12,7 @@ from emogen_core.rigs.identities import preset
 from emogen_core.rigs.look.presets import presets
 from server.services.errors import ConflictError, InvalidError, NotFoundError
 from server.services.faces.expressions import NEUTRAL
+from server.services.faces.fitting_room import REMEMBERED
 from tests.conftest import PIXEL
 
 
@@ -50,7 +51,7 @@ def test_a_head_at_rest_is_fitted_without_its_shapes_and_remembered(house, tailo
 def test_only_a_few_are_remembered(house, tailor):
     for age in range(20, 30):
         house.heads.preview(head(age=age), NEUTRAL, "ines").result(5)
-    assert len(house.heads._tried) == 4
+    assert house.heads._room.remembered == REMEMBERED
     house.heads.preview(head(age=20), NEUTRAL, "ines").result(5)
     assert len(tailor.fitted) == 11
 

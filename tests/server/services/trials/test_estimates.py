@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 
 import numpy as np
 import pytest
+from anyio.to_thread import current_default_thread_limiter
 
 from emogen_core.correctives.pipeline import face_weights
 from emogen_core.search import Choice, preference
@@ -107,6 +109,42 @@ def test_the_write_finds_it_learned_and_corrected(house, client, study, monkeypa
 
 
 @BOTH
+def test_no_transaction_is_open_while_the_search_learns(house, client, study, monkeypatch):
+    learn, connections = strategy.learn, []
+
+    def spied(*told):
+        connections.append(house.database.engine.pool.checkedout())
+        return learn(*told)
+
+    monkeypatch.setattr(strategy, "learn", spied)
+    Walker(client, study.links[0]).finish()
+    assert connections == [0] * (1 + 2 * 3)
+
+
+def test_what_was_learned_is_kept_for_as_many_answers_as_a_server_takes_at_once():
+    async def threads():
+        return int(current_default_thread_limiter().total_tokens)
+
+    assert asyncio.run(threads()) < strategy.REMEMBERED
+
+
+def test_where_more_answers_come_at_once_than_are_kept_each_leads_to_the_same_faces(house, client, study, monkeypatch):
+    learned, learn, rehearse = [], strategy.learn, answers.rehearse
+
+    def crowded(*told):
+        ahead = rehearse(*told)
+        for kept in (strategy._told, strategy._shown):
+            kept.cache_clear()
+        return ahead
+
+    monkeypatch.setattr(strategy, "learn", lambda *told: (learned.append(told), learn(*told))[1])
+    monkeypatch.setattr(answers, "rehearse", crowded)
+    assert Walker(client, study.links[0]).finish()["completion"]["outcome"] == "complete"
+    assert len(learned) == 2 * (1 + 2 * 3), "once ahead, and once more in the write"
+    assert house.replay.study(study.id).difference is None
+
+
+@BOTH
 def test_it_goes_with_its_participation_and_with_its_study(house, study, walker):
     keys = {one.portrait_key for one in estimates(house)}
     with house.database.read() as tx:
@@ -125,8 +163,8 @@ def test_its_portrait_can_be_drawn(house, walker):
 
 
 def test_who_took_part_says_which_search(house, study, walker):
-    assert {row["algorithm"] for row in lines(house, study.id, "participations")} == {"preference/1"}
-    assert algorithm_of(small_study(**LEARNING)) == "preference/1"
+    assert {row["algorithm"] for row in lines(house, study.id, "participations")} == {"preference/2"}
+    assert algorithm_of(small_study(**LEARNING)) == "preference/2"
 
 
 def test_faces_come_from_where_the_export_says(house, study, walker):

@@ -44,6 +44,17 @@ def test_there_is_a_cell_for_every_complexity(cells):
         assert len(cell.paper.judged) == len(cell.learning.judged) == 2
 
 
+def test_where_trials_end_early_the_whole_ones_stand_beside_them(cells):
+    laboratory = small_laboratory(generations=3)
+    early, whole = (compare(laboratory, Plan((name,), FEWEST, "tuning")) for name in ("stop-20", "cosine-noise"))
+    for one, other in zip(early, whole, strict=True):
+        assert np.array_equal(one.whole.judged, other.learning.judged)
+        assert np.array_equal(one.paper.judged, other.paper.judged)
+        assert other.whole.judged is not one.learning.judged
+        assert (other.learning.generations, other.learning.early) == (3, 0)
+        assert one.learning.generations <= 3
+
+
 def test_the_numbers_do_not_depend_on_who_does_the_work(cells):
     steps = []
     shared = told(small_laboratory(generations=1), engine=Processes(2), progress=lambda *at: steps.append(at))

@@ -12,6 +12,7 @@ from emogen_core.similarity.cosine import cosine_distance
 from emogen_core.simulation.complexity import name_of
 from emogen_core.simulation.evaluation.specs import RunSpec
 from emogen_core.simulation.evaluation.strategies.course import FAINT, Watching, joined
+from emogen_core.simulation.evaluation.strategies.summary import summary
 from emogen_core.simulation.learners import trial_seed
 from emogen_core.simulation.observer import Observer
 from tests.emogen_core.simulation.evaluation.laboratories import small_laboratory
@@ -61,6 +62,19 @@ def test_the_mean_face_is_what_the_strategy_itself_tells():
         means.append(LAB.faces(preference.mean_face(params, told)[None])[0])
     errors = cosine_distance(np.stack(means), LAB.faces(np.atleast_2d(experiment.target)[:1])[0])
     assert np.abs(errors - course.believed[0, 0]).min() < 1e-6
+
+
+def test_what_ended_early_stays_as_it_was():
+    spec = replace(LEARNING, search={"stop_at": 0.5, "least_generations": 1})
+    laboratory = small_laboratory(generations=4)
+    course = Watching(laboratory).chunk(spec, 0, 3)
+    assert (course.ended == 1).all()
+    for curve in (course.judged, course.believed, course.doubt, course.alike):
+        assert (curve[:, 1:] == curve[:, 1:2]).all()
+    found = summary(course, laboratory.faces(laboratory.meant(spec))[:1])
+    assert (found.generations, found.early) == (1, 100)
+    assert (found.estimated, found.expected) == (course.mean_cosine[:, 1].mean(), course.doubt[:, 1].mean())
+    assert summary(Watching(laboratory).chunk(PAPER, 0, 3), laboratory.faces(laboratory.meant(spec))[:1]).early == 0
 
 
 def test_chunks_are_put_together_in_their_order():

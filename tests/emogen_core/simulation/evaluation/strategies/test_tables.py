@@ -39,6 +39,26 @@ def test_goals_are_counted():
     assert table.why.startswith(f"{len(table.rows) - 1} of {len(table.rows)} goals")
 
 
+def test_what_ends_early_stands_beside_the_same_people_who_go_on():
+    changes = {"generations": 4.5, "early": 75.0, "estimated": 0.2, "expected": 0.11, "cosine": np.full(LAST + 1, 0.25)}
+    cell = made_cell("stop-10", 12, **changes)
+    (table,) = tables([cell])
+    told = dict(zip([column.name for column in table.columns], table.rows[0].ours, strict=True))
+    assert table.name == "strategy-stopping"
+    assert table.rows[0].label == "noise .1, ends at .1, 12 genes"
+    assert told["saving %"] == 100 * (1 - 5.5 / 11)
+    names = ("generations", "early %", "elite", "estimate", "expected")
+    assert [told[name] for name in names] == [4.5, 75, 0.25, 0.2, 0.11]
+    beside = [told[f"{name} without"] for name in ("elite", "estimate", "expected")]
+    assert beside == [cell.whole.cosine[-1], cell.whole.estimated, cell.whole.expected]
+
+
+def test_a_table_of_its_own_leaves_the_others_as_they_are():
+    both = {table.name: (table.columns, table.rows) for table in tables([*CELLS, made_cell("stop-10")])}
+    assert len(both.pop("strategy-stopping")[1]) == 1
+    assert both == {name: (table.columns, table.rows) for name, table in TOLD.items()}
+
+
 def test_every_complexity_has_faces_of_both():
     for name in ("strategy-diversity", "strategy-active"):
         assert len(TOLD[name].rows) == 2 * 2 * len(COMPLEXITIES)

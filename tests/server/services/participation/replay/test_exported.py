@@ -306,3 +306,30 @@ def test_an_export_from_before_there_were_estimates_replays(house, study, learne
 
     assert without(study) is None
     assert without(learned).what == "estimate"
+
+
+def test_trials_that_ended_early_replay_and_what_is_said_of_their_end_is_checked(house, client, tmp_path):
+    search = {"strategy": "preference", "activation": (2, 3), "stop_at": 0.5, "least_generations": 1}
+    study = house.studies.create(small_study(generations=4, search=search))
+    Walker(client, study.links[0]).finish()
+    Walker(client, study.links[0]).finish(steps=4)
+    folder = exported(house, study, tmp_path / "whole")
+    found = replayed(house, folder)
+    assert (found.difference, found.generations) == (None, house.replay.study(study.id).generations)
+    for said, what in ((False, "last_generation"), (None, "last_generation")):
+        other = tampered(folder, "trials", changed(on(practice=False), ended_early=said))
+        difference = replayed(house, other).difference
+        assert (difference.what, difference.expected, difference.got) == (what, "1", "none")
+
+
+def test_an_export_from_before_trials_could_end_early_replays(house, learned, tmp_path):
+    folder = exported(house, learned, tmp_path / "whole")
+
+    def undone(rows):
+        assert not any(row.pop("ended_early") for row in rows)
+
+    def undocumented(told):
+        told["trials"]["columns"] = [one for one in told["trials"]["columns"] if one["name"] != "ended_early"]
+
+    before = tampered(tampered(folder, "trials", undone), "dictionary.json", undocumented)
+    assert replayed(house, before).difference is None

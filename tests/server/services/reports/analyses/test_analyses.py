@@ -78,7 +78,8 @@ def test_a_report_is_made_and_kept(house, study, people, analyses):
     with zipfile.ZipFile(io.BytesIO(analyses.archive(study.id))) as files:
         assert files.namelist() == ["about.json", "report.html"]
     with house.database.read() as tx:
-        assert tx.query(AuditEntry).filter_by(action="make report", subject=study.id).one().detail == {"who": "people"}
+        entry = tx.query(AuditEntry).filter_by(action="make report", subject=study.id).one()
+        assert entry.detail == {"who": "people", "result": "elite"}
 
 
 @pytest.mark.parametrize(
@@ -94,6 +95,21 @@ def test_who_was_asked_for_counts(study, people, analyses, who, counted, options
     assert make(analyses, study, who).who == who
     assert analyses.page(study.id) == f"<p>{counted}</p>".encode()
     assert analyses.make.options == [options]
+
+
+def test_estimates_can_be_asked_for_where_a_search_makes_any(client, house, study, people, analyses):
+    assert list(analyses.results(study.id)) == ["elite"]
+    learning = house.studies.create(small_study(search={"strategy": "preference", "activation": (2, 3)}))
+    assert list(analyses.results(learning.id)) == ["elite"]
+    Walker(client, learning.links[0]).finish()
+    assert list(analyses.results(learning.id)) == ["elite", "estimate"]
+    analyses.begin(learning.id, "people", None, "estimate")
+    analyses.settle()
+    assert analyses.make.options == [("--result", "estimate")]
+    standing = analyses.of(learning.id)
+    assert (standing.result, standing.counted) == ("estimate", "1 who completed, the search’s own estimates")
+    with pytest.raises(InvalidError, match="no such result"):
+        analyses.begin(learning.id, "people", None, "odd")
 
 
 def test_nonsense_is_refused_and_leaves_nothing(study, analyses):

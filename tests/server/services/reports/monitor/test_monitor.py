@@ -12,7 +12,9 @@ from server.services.errors import NotFoundError, UnavailableError
 from server.services.reports.monitor import monitor as rules
 from server.services.reports.monitor.monitor import View
 from server.store.runs_tables import ChoiceRecord, Generation, Participation, Trial
+from tests.conftest import small_study
 from tests.server.conftest import END, PEOPLE
+from tests.server.walker import Walker
 
 
 @pytest.fixture
@@ -55,6 +57,24 @@ def test_those_in_the_study_are_listed_with_where_they_are(full, day):
         assert int(person.done) in {max(row.position - 1, 0), max(row.position - 1, 0) + 1}
     assert any(person.away for person in look.people)
     assert len(full.monitor.look(day.study, View("today")).people) == min(len(here), rules.ROWS)
+
+
+def test_who_is_at_the_last_page_of_a_face_that_ends_early_is_nearly_done_with_it(house, client):
+    search = {"strategy": "preference", "activation": (2, 3), "stop_at": 0.5, "least_generations": 1}
+    study = house.studies.create(small_study(generations=9, search=search))
+    walker = Walker(client, study.links[0])
+
+    def done():
+        (person,) = house.monitor.look(study.id, View("all")).people
+        return person.done
+
+    walker.finish(steps=3)
+    assert done() == 0
+    state = walker.step(walker.state())
+    assert state["trial"]["final"]
+    assert done() == 1 / 2, "one of two pages, not of ten"
+    walker.step(state)
+    assert done() == 1
 
 
 def test_times_are_those_of_the_choices(full, day):

@@ -124,7 +124,7 @@ def test_files_of_the_published_search_are_named_as_before_rigs_told_their_geome
     """Another name would have every study simulated anew."""
     config = small_study()
     params, _ = simulated(rig, config)
-    told = asdict(replace(params, geometry=None)) | {"drawn": None, "rig": rig.hash, "searches": 100, "version": 4}
+    told = asdict(replace(params, geometry=None)) | {"drawn": None, "rig": rig.hash, "searches": 100, "version": 5}
     del told["geometry"]
     told["algorithm"] = f"emogen/{STRATEGIES['emogen'].VERSION}"
     known(noise, config)

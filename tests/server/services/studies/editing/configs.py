@@ -35,6 +35,7 @@ texts = part(
     consents=lists(line),
 )  # fmt: skip
 search = part(
+    stop_at=sometimes(st.floats(0, 0.5)), least_generations=st.integers(1, 30),
     mutations=st.integers(0, 20), random_genes=st.integers(1, 50), random_faces=st.integers(0, 7),
     activation=st.tuples(st.integers(0, 9), st.integers(0, 9)).map(list), initialisation=st.sampled_from(["protocol"]),
     fixed_population=population | st.just([]), fixed_options=lists(population),
