@@ -128,3 +128,9 @@ def participation_of(stage, page):
     """Return the row id of the participation that a page shows."""
     token = re.search(r"/p/([\w-]+)", page.url)[1]
     return stage.one("SELECT id FROM participations WHERE token_hash = ?", digest(token))
+
+
+def sent(page, button):
+    """Send a form of a page without script, and wait for the page that answers."""
+    with page.expect_navigation():
+        page.locator(button).click()

@@ -4,6 +4,8 @@ from itertools import pairwise
 
 import pytest
 
+from tests.browser.stage import sent
+
 from .conditions import TWO_FRAMES, at_rest
 from .stage import participation_of
 
@@ -138,19 +140,19 @@ def test_none_is_close_without_script(stage, browser):
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
     page.goto(stage.link("asking"))
-    page.locator("main form button").click()
+    sent(page, "main form button")
     for label in page.locator(".statement label").all():
         label.click()
-    page.locator("button[value=true]").click()
-    page.locator("form[data-answer] button").click()
+    sent(page, "button[value=true]")
+    sent(page, "form[data-answer] button")
     for places in ((0,), (2, 6)):
         for place in places:
             page.locator(".tile").nth(place).locator(".face").click()
         page.locator(".none-is-close label").click()
-        page.locator("#next").click()
+        sent(page, "#next")
     assert page.locator("#none").is_checked(), "what was ticked stays when something is missing"
     page.locator(".tile").nth(2).locator(".strip").click()
-    page.locator("#next").click()
+    sent(page, "#next")
     assert [row[-1] for row in times(stage, page)] == [1]
     context.close()
 

@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from tests.browser.stage import participation_of
+from tests.browser.stage import participation_of, sent
 
 pytestmark = pytest.mark.browser
 
@@ -132,22 +132,22 @@ def test_plain_form_without_script(stage, browser):
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
     page.goto(stage.link("small"))
-    page.locator("main form button").click()
-    page.locator("button[value=true]").click()
+    sent(page, "main form button")
+    sent(page, "button[value=true]")
     assert page.title().startswith("Error:")
     for label in page.locator(".statement label").all():
         label.click()
-    page.locator("button[value=true]").click()
-    page.locator("form[data-answer] button").click()
+    sent(page, "button[value=true]")
+    sent(page, "form[data-answer] button")
     for chosen in ((3,), (2, 6)):
         for place in chosen:
             page.locator(".tile").nth(place).locator(".face").click()
         if len(chosen) > 1:
-            page.locator("#next").click()
+            sent(page, "#next")
             assert "Mark the closest of the 2 faces" in page.locator("#status").inner_text()
             assert page.locator(".select:checked").count() == 2
         page.locator(".tile").nth(chosen[-1]).locator(".strip").click()
-        page.locator("#next").click()
+        sent(page, "#next")
     assert page.locator("[data-generation]").inner_text() == "Generation 1 of 2"
     assert len(stage.rows(CHOICES, participation_of(stage, page))) == 1
     context.close()

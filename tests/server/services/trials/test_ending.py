@@ -6,7 +6,7 @@ import html
 
 import pytest
 
-from server.services.participation import answers, seating
+from server.services.participation import answers
 from server.services.trials.evolution import params_of
 from server.store import runs
 from server.store.runs_tables import Trial
@@ -16,16 +16,13 @@ from tests.server.walker import Walker
 
 LEARNING = {"strategy": "preference", "activation": (2, 3)}
 MOST, LEAST = 5, 2
-SEED = "2"
 SURE = {"generations": MOST, "search": {**LEARNING, "stop_at": 0.5, "least_generations": LEAST}}
 TO_LAST = 2 + 1 + LEAST
 """Steps up to the last page of the first face: consent, instructions, practice, choices."""
 
 
 @pytest.fixture
-def study(house, monkeypatch):
-    # How sure a search is depends on its seed; with this one it is sure as soon as it may be, in every face set.
-    monkeypatch.setattr(seating, "new_seed", lambda: SEED)
+def study(house, soon_sure):
     return house.studies.create(small_study(**SURE))
 
 

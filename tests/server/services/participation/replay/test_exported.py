@@ -308,7 +308,7 @@ def test_an_export_from_before_there_were_estimates_replays(house, study, learne
     assert without(learned).what == "estimate"
 
 
-def test_trials_that_ended_early_replay_and_what_is_said_of_their_end_is_checked(house, client, tmp_path):
+def test_trials_that_ended_early_replay_and_what_is_said_of_their_end_is_checked(house, client, soon_sure, tmp_path):
     search = {"strategy": "preference", "activation": (2, 3), "stop_at": 0.5, "least_generations": 1}
     study = house.studies.create(small_study(generations=4, search=search))
     Walker(client, study.links[0]).finish()

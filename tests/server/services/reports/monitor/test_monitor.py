@@ -59,7 +59,7 @@ def test_those_in_the_study_are_listed_with_where_they_are(full, day):
     assert len(full.monitor.look(day.study, View("today")).people) == min(len(here), rules.ROWS)
 
 
-def test_who_is_at_the_last_page_of_a_face_that_ends_early_is_nearly_done_with_it(house, client):
+def test_who_is_at_the_last_page_of_a_face_that_ends_early_is_nearly_done_with_it(house, client, soon_sure):
     search = {"strategy": "preference", "activation": (2, 3), "stop_at": 0.5, "least_generations": 1}
     study = house.studies.create(small_study(generations=9, search=search))
     walker = Walker(client, study.links[0])
