@@ -25,6 +25,8 @@ STOPS = f"None, or above 0 and at most {MOST_STOP_AT}"
 INITIAL_EMOTIONS = ("happy", "sad", "angry", "fearful")
 
 Genome = tuple[float, ...]
+Check = tuple[str, bool, str, object]
+"""A field, whether it is as it has to be, what was expected, and what it is."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +83,7 @@ class SearchParams:
         """Refuse settings that the algorithm cannot run with."""
         genes = range(self.gene_count)
         fixed = np.array(self.fixed_population, float) if self.fixed_population else None
-        checks = (
+        checks: tuple[Check, ...] = (
             (
                 "active",
                 bool(self.active) and all(i in genes for i in self.active),
@@ -91,13 +93,7 @@ class SearchParams:
             ("initial_sets", all(s.genes for s in self.initial_sets), "sets with genes", self.initial_sets),
             ("initial_sets", bool(self.initial_sets) or fixed is not None, "at least one set", ()),
             ("generations", self.generations >= 1, "at least 1", self.generations),
-            ("stop_at", self.stop_at is None or 0 < self.stop_at <= MOST_STOP_AT, STOPS, self.stop_at),
-            (
-                "least_generations",
-                self.stop_at is None or 1 <= self.least_generations <= self.generations,
-                "1 up to the generations",
-                self.least_generations,
-            ),
+            *self._ending(),
             ("minimum", 1 <= self.minimum <= self.maximum, "1 up to the maximum", self.minimum),
             ("maximum", self.maximum <= POPULATION, f"at most {POPULATION}", self.maximum),
             ("mutations", self.mutations >= 0, "0 or more", self.mutations),
@@ -137,6 +133,16 @@ class SearchParams:
             self,
             active=tuple(i for i in self.active if i in kept),
             initial_sets=tuple(one for one in sets if one.genes),
+        )
+
+    def _ending(self) -> tuple[Check, ...]:
+        """Return what has to hold of a trial that may end early."""
+        if self.stop_at is None:
+            return ()
+        least = 1 <= self.least_generations <= self.generations
+        return (
+            ("stop_at", 0 < self.stop_at <= MOST_STOP_AT, STOPS, self.stop_at),
+            ("least_generations", least, "1 up to the generations", self.least_generations),
         )
 
     def _is_population(self, fixed: np.ndarray | None) -> bool:

@@ -21,10 +21,13 @@ from ..packing.files import WEIGHTS
 from .common import Json, plainly, report_text, rig_of
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from numpy.typing import NDArray
 
     from emogen_core.face.rig import Rig
     from emogen_core.face.space import IdentitySpace
+    from emogen_core.rigs.foreign.obj import ObjMesh
     from emogen_core.rigs.transferred import Target
 
     Mesh = NDArray[np.float64]
@@ -113,17 +116,23 @@ def _target(rig: Rig, target: str, folder: Path | None) -> Target:
     if not own and not Path(target).is_file():
         raise InvalidInputError(f"target: {expected(f'one of {list(rig.identities)} or an OBJ file', target)}")
     rest = None if own else heads.read_mesh(Path(target))
-    meshes = [heads.read_mesh(folder / f"{one}.obj", rest).vertices for one in weights] if folder else []
-    shape = rig.neutral(rig.identities[0]).shape
-    for one, mesh in zip(weights, meshes, strict=True):
-        if mesh.shape != shape:
-            raise InvalidInputError(f"{one}.obj: {expected(f'{shape[0]} vertices', len(mesh))}; it has to be the mesh")
-    shown = np.array(meshes).reshape(-1, *shape), np.array([*weights.values()]).reshape(-1, len(rig.core_shapes))
+    meshes = _vertices(rig, {one: heads.read_mesh(folder / f"{one}.obj", rest) for one in weights} if folder else {})
+    shown = meshes, np.array([*weights.values()]).reshape(-1, len(rig.core_shapes))
     if rest is None:
         worn: Target = making.Target(rig.neutral(target).astype(np.float64), *shown)
         return worn
     found: Target = making.posed(rig, rest.vertices, *shown)
     return found
+
+
+def _vertices(rig: Rig, meshes: Mapping[str, ObjMesh]) -> Mesh:
+    """Return the (E, V, 3) vertices of expressions."""
+    shape = rig.neutral(rig.identities[0]).shape
+    for name, mesh in meshes.items():
+        if mesh.vertices.shape != shape:
+            count = len(mesh.vertices)
+            raise InvalidInputError(f"{name}.obj: {expected(f'{shape[0]} vertices', count)}; it has to be the mesh")
+    return np.array([mesh.vertices for mesh in meshes.values()]).reshape(-1, *shape)
 
 
 def read_weights(folder: Path, rig: Rig) -> dict[str, Mesh]:

@@ -12,6 +12,8 @@ from emogen_core.rigs.foreign.names import meaning
 from emogen_core.rigs.foreign.parts import roles_of
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
     from emogen_core.rigs.foreign.model import Findings, HeadModel
@@ -66,15 +68,21 @@ def _check_names(model: HeadModel) -> None:
     names = tuple(model.expressions)
     if not names:
         raise InvalidInputError(f"{model.name}: expected expressions (morph targets or OBJ files), got none")
-    wrong = [
-        n for n in names if not isinstance(n, str) or not n.strip() or len(n) > LONGEST_NAME or not n.isprintable()
-    ]
+    wrong = [name for name in names if not _is_name(name)]
     if wrong:
         raise InvalidInputError(f"names: {expected(f'1 to {LONGEST_NAME} letters', wrong[0])}; name every expression")
     if not any(meaning(name).known for name in names):
         wanted = "names of ARKit or ICT-FaceKit, as jawOpen and eyeBlink_L"
         got = counted(names)
         raise InvalidInputError(f"names: expected {wanted}, got {got}; rename the expressions that are such")
+    _check_once(names)
+
+
+def _is_name(name: object) -> bool:
+    return isinstance(name, str) and bool(name.strip()) and len(name) <= LONGEST_NAME and name.isprintable()
+
+
+def _check_once(names: Sequence[str]) -> None:
     first: dict[str, str] = {}
     for name in names:
         other = first.setdefault(meaning(name).standard, name)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 import tracemalloc
@@ -102,7 +103,9 @@ def test_the_order_of_clicks_does_not_matter() -> None:
     assert one.sample == other.sample
 
 
-def test_another_process_shows_the_same_faces() -> None:
+@pytest.mark.parametrize("kernels", ["Haswell", "Nehalem"])
+def test_another_process_with_algebra_for_another_processor_shows_the_same_faces(kernels: str) -> None:
+    other = {"OPENBLAS_CORETYPE": kernels, "NPY_DISABLE_CPU_FEATURES": "X86_V3 X86_V4"}
     program = (
         "import json, sys; from emogen_core.search import State, preference;"
         "from tests.emogen_core.search.space import space;"
@@ -113,7 +116,12 @@ def test_another_process_shows_the_same_faces() -> None:
     )
     _, state = play(space(), 11, [Choice((1, 2, 6), 2), Choice((4,), 4)])
     told = subprocess.run(
-        [sys.executable, "-c", program], input=json.dumps(state.to_json()), capture_output=True, text=True, check=True
+        [sys.executable, "-W", "ignore", "-c", program],
+        input=json.dumps(state.to_json()),
+        env={**os.environ, **other},
+        capture_output=True,
+        text=True,
+        check=True,
     ).stdout.splitlines()
     assert told[0] == preference.ask(space(), state).genes.tobytes().hex()
     assert State.from_json(json.loads(told[1])) == preference.tell(space(), state, Choice((3, 5), 5))
